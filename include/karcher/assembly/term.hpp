@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// Term: an integral over the cells of a region of a density of some fields, evaluated in batches of W = native_width cells of one kind.
+///
+/// Local unknowns of a cell: field after field, node after node, component after component. Everything a batch returns is entry-major, lane-minor:
+/// gradient[r * W + lane], hessian[(r * n + c) * W + lane]; of the Hessian only the entries r <= c and the whole diagonal blocks are defined.
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "karcher/field/field.hpp"
+#include "karcher/math/pack.hpp"
+
+namespace karcher {
+
+enum class Want { energy, gradient, hessian };
+
+/// What went wrong in a kernel, by value (no exceptions in loops).
+enum class Trouble : char { none, undefined_interpolation, infinite_energy, not_finite };
+
+/// A block of local unknowns: the tangent coordinates of one node of one field.
+struct LocalBlock {
+  int field = 0;
+  int dim = 0;
+};
+
+struct Batch {
+  int cells_used = 0;                               ///< lanes that count; the others repeat a cell and are ignored
+  std::array<int, native_width> cells{};            ///< index into the term's region
+  const std::vector<LocalBlock>* blocks = nullptr;  ///< shared by all batches of a cell kind
+  /// nodes[b * native_width + lane]: node (of its field) of local block b
+  std::vector<int> nodes;
+};
+
+struct BatchResult {
+  std::array<double, native_width> energy{};
+  std::array<Trouble, native_width> trouble{};
+  std::vector<double> gradient, hessian;  ///< resized by the caller to n * W and n * n * W
+};
+
+class Term {
+ public:
+  virtual ~Term() = default;
+  /// Key under "energies" in summary.json, e.g. "cosserat-shell", "volume-load".
+  virtual const std::string& name() const = 0;
+  /// Parts that the density can tell apart (empty: none); same order as part_energies().
+  virtual std::vector<std::string> part_names() const { return {}; }
+  virtual int batch_count() const = 0;
+  virtual const Batch& batch(int b) const = 0;
+  /// Energy of each cell of batch b, and gradient and Hessian when wanted. Thread of control returns normally in every case; trouble is reported by lane.
+  virtual void evaluate(const Configuration& u, int b, Want want, BatchResult& out) const = 0;
+  /// Energy of every part, summed over the term's own cells.
+  virtual std::vector<double> part_energies(const Configuration&) const { return {}; }
+  /// Called when the load parameter changes, before evaluations at the new value: data that depends on t is recomputed.
+  virtual void set_load_parameter(double /*t*/) {}
+  /// The entity of the mesh behind index `cell` (for messages and output).
+  virtual const Cell& cell(int cell) const = 0;
+};
+
+}  // namespace karcher

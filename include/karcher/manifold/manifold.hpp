@@ -1,0 +1,89 @@
+#pragma once
+/// \file
+/// The concept of a manifold.
+///
+/// A manifold is a stateless type M that speaks about points in ambient coordinates, `Vec<T, M::ambient>`. A point is a plain value; all
+/// operations are static templates over the scalar T (double, Pack, Jet, Dual), which is how every derivative in Karcher that is not written in
+/// closed form is obtained, exactly. The metric is that of `inner`.
+///
+/// Notation as in Absil, Mahony, Sepulchre, "Optimization Algorithms on Matrix Manifolds" (2008): p, q points; a, b tangent vectors at p in ambient
+/// coordinates; v coordinates of a tangent vector in the frame E(p), whose columns are orthonormal in the metric at p.
+
+#include <concepts>
+#include <limits>
+#include <string_view>
+
+#include "karcher/math/tensor.hpp"
+
+namespace karcher {
+
+template <class M, class T = double>
+using Point = Vec<T, M::ambient>;
+
+namespace manifold_detail {
+template <class M>
+concept HasName = requires {
+  { M::name } -> std::convertible_to<std::string_view>;
+};
+template <class M>
+concept HasDimensions = requires {
+  { M::ambient } -> std::convertible_to<int>;
+  { M::dim } -> std::convertible_to<int>;
+};
+template <class M>
+concept HasExp = requires(Point<M> p) {
+  { M::exp(p, p) } -> std::same_as<Point<M>>;
+};
+template <class M>
+concept HasLog = requires(Point<M> p) {
+  { M::log(p, p) } -> std::same_as<Point<M>>;
+};
+template <class M>
+concept HasInner = requires(Point<M> p) {
+  { M::inner(p, p, p) } -> std::same_as<double>;
+};
+template <class M>
+concept HasFrame = requires(Point<M> p) {
+  { M::frame(p) } -> std::same_as<Mat<double, M::ambient, M::dim>>;
+};
+template <class M>
+concept HasInjectivityRadius = requires {
+  { M::injectivity_radius } -> std::convertible_to<double>;
+};
+}  // namespace manifold_detail
+
+/// M::name                     std::string_view, as problem files say it
+/// M::ambient, M::dim          numbers of ambient coordinates and of tangent coordinates
+/// M::exp(p, a)                exponential map of the ambient tangent vector a at p; smooth in both, also at a = 0
+/// M::log(p, q)                its inverse, an ambient tangent vector at p; smooth also at q = p; meaningful for dist(p, q) < injectivity_radius
+/// M::inner(p, a, b)           metric at p (on ambient vectors; linear in a and b even where they are not exactly tangent)
+/// M::frame(p)                 ambient x dim, columns orthonormal in the metric at p; need not be smooth in p; deterministic
+/// M::injectivity_radius       infinity where there is no cut locus
+/// Optional:
+/// M::project(x)               closest point of the manifold to an ambient vector (makes the projection rule available)
+/// M::chord(q, p)              tangent vector at q that is the gradient in q of -1/2 |p - q|^2 (ambient): the projection of p to T_qM; comes with project
+template <class M>
+concept Manifold = manifold_detail::HasName<M> && manifold_detail::HasDimensions<M> && manifold_detail::HasExp<M> && manifold_detail::HasLog<M> &&
+    manifold_detail::HasInner<M> && manifold_detail::HasFrame<M> && manifold_detail::HasInjectivityRadius<M>;
+
+template <class M>
+concept HasProjection = Manifold<M> && requires(Point<M> p) {
+  { M::project(p) } -> std::same_as<Point<M>>;
+  { M::chord(p, p) } -> std::same_as<Point<M>>;
+};
+
+/// Point with the coordinates v in the frame at p: exp_p(E(p) v). This is the retraction that the solver steps with.
+template <class M, class T>
+Point<M, T> retract(const Point<M, T>& p, const Vec<T, M::dim>& v) {
+  return M::exp(p, M::frame(p) * v);
+}
+
+/// Coordinates in the frame e of the tangent vector a at p.
+template <class M, class T>
+Vec<T, M::dim> coordinates(const Point<M, T>& p, const Mat<T, M::ambient, M::dim>& e, const Vec<T, M::ambient>& a) {
+  Vec<T, M::dim> v;
+  for (int k = 0; k < M::dim; ++k) v[k] = M::inner(p, column(e, k), a);
+  return v;
+}
+
+}  // namespace karcher

@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// Mesh: geometry nodes in R^3, cells of any kind and order (mixed), and named regions. No manifold structure is assumed: surfaces may be
+/// non-orientable, an edge may belong to any number of cells.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "karcher/mesh/reference_cell.hpp"
+
+namespace karcher {
+
+/// One cell, or an entity of a region (a facet of a cell is a cell of its own, with the geometry nodes of the trace).
+struct Cell {
+  CellKind kind = CellKind::vertex;
+  int order = 1;           ///< geometry order 1..3
+  std::vector<int> nodes;  ///< into Mesh::nodes, in the order of reference_cell.hpp; the first vertex_count(kind) are the vertices
+  /// Parameters of the vertices, for meshes with Mesh::parametrisation (empty otherwise). Per cell, since a periodic parametrisation is multi-valued.
+  std::vector<Vec3<double>> parameters;
+};
+
+/// A named set of entities of one dimension.
+struct Region {
+  std::string name;
+  int dim = 0;
+  std::vector<Cell> cells;
+};
+
+struct Mesh {
+  int dim = 0;  ///< highest dimension of a cell
+  std::vector<Vec3<double>> nodes;
+  std::vector<Cell> cells;                ///< the cells of dimension `dim`
+  std::map<std::string, Region> regions;  ///< physical groups and predicate regions; "all" is always there and equals `cells`
+  /// Exact geometry of generated meshes: maps parameters to R^3, so that refinement lands on the exact surface. Empty for read meshes.
+  std::function<Vec3<double>(const Vec3<double>&)> parametrisation;
+
+  /// \throws InputError naming the known regions and the nearest name.
+  const Region& region(const std::string& name) const;
+};
+
+/// All facets of the mesh's cells that belong to exactly one cell.
+std::vector<Cell> boundary_facets(const Mesh& mesh);
+/// All distinct entities of dimension `dim` (0 vertices .. mesh.dim cells), optionally only those on the boundary.
+std::vector<Cell> entities(const Mesh& mesh, int dim, bool boundary_only);
+/// Region of all entities of dimension dim whose every geometry node satisfies the predicate. \throws InputError if empty.
+Region select(const Mesh& mesh, const std::string& name, int dim, bool boundary_only, const std::function<bool(const Vec3<double>&)>& predicate);
+
+/// Position, tangents dx/dxi_a and second derivatives of the cell's own Lagrange geometry at a reference point.
+struct GeometryJet {
+  Vec3<double> x;
+  std::array<Vec3<double>, 3> d{};
+  std::array<Vec3<double>, 6> dd{};  ///< xx, xy, xz, yy, yz, zz
+};
+GeometryJet geometry(const Mesh& mesh, const Cell& cell, const Vec3<double>& xi);
+
+}  // namespace karcher

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "karcher/field/field.hpp"
+#include "karcher/mesh/incidence.hpp"
 
 namespace karcher {
 
@@ -45,7 +46,7 @@ class Layout {
   int owner(int field, int node) const { return owner_[static_cast<std::size_t>(field)][static_cast<std::size_t>(node)]; }
   bool fixed(int local_dof) const { return fixed_[static_cast<std::size_t>(local_dof)] != 0; }
 
-  /// Rank that evaluates an entity (for terms on facets: the rank of a cell that has the facet).
+  /// Rank that evaluates an entity: that of the first mesh cell that has all its vertices. This rank sees all nodes on such entities.
   int cell_rank(const Cell& entity) const;
 
   const std::vector<Field>& fields() const { return fields_; }
@@ -58,7 +59,8 @@ class Layout {
   std::vector<int> local_to_global_;
   std::vector<std::vector<int>> first_dof_, local_nodes_, owner_;
   std::vector<char> fixed_;
-  std::map<std::vector<int>, int> facet_rank_;
+  CellRanks cell_ranks_;
+  std::shared_ptr<const VertexCells> around_;
 };
 
 }  // namespace karcher

@@ -1,0 +1,61 @@
+#pragma once
+/// \file
+/// Names that a user may have meant: the nearest of a list, and the half sentence that error messages end with.
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace karcher {
+
+/// Edit distance with swaps of neighbours (optimal string alignment): the number of letters to insert, delete, replace or swap. Case is ignored.
+inline int edit_distance(std::string_view a, std::string_view b) {
+  const auto same = [](char x, char y) { return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y)); };
+  const std::size_t columns = b.size() + 1;
+  std::vector<int> before(columns), last(columns), row(columns);
+  for (std::size_t j = 0; j < columns; ++j) last[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j < columns; ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same(a[i - 1], b[j - 1]) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+/// The candidate with the smallest edit distance, the first of equals; empty when none is near (more than a third of the letters are wrong, at least
+/// one wrong letter is always forgiven).
+inline std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
+  std::string best;
+  int smallest = 1 + std::max(1, static_cast<int>(name.size()) / 3);
+  for (const std::string& c : candidates) {
+    const int d = edit_distance(name, c);
+    if (d < smallest && d < static_cast<int>(std::max(name.size(), c.size()))) {
+      smallest = d;
+      best = c;
+    }
+  }
+  return best;
+}
+
+/// "a, b, c" for messages that list what is known.
+inline std::string join_names(std::span<const std::string> names, std::string_view separator = ", ") {
+  std::string s;
+  for (const std::string& n : names) s += (s.empty() ? std::string() : std::string(separator)) + n;
+  return s;
+}
+
+/// "Did you mean \"x\"? Known: a, b, c." or, when nothing is near, "Known: a, b, c."
+inline std::string suggestion(std::string_view name, std::span<const std::string> candidates, std::string_view known = "Known") {
+  const std::string near = nearest_name(name, candidates);
+  return (near.empty() ? std::string() : "Did you mean \"" + near + "\"? ") + std::string(known) + ": " + join_names(candidates) + ".";
+}
+
+}  // namespace karcher

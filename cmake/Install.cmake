@@ -1,0 +1,19 @@
+# `cmake --install build --prefix DIR`: the program, the library's headers (testing/ included) and a package for find_package(Karcher).
+include(CMakePackageConfigHelpers)
+
+set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Karcher)
+# The rooms of the library; app is the program's alone.
+set(rooms options math manifold interpolation energy mesh field assembly solve io)
+foreach(room ${rooms})
+  set_target_properties(karcher_${room} PROPERTIES EXPORT_NAME ${room})
+endforeach()
+list(TRANSFORM rooms PREPEND karcher_ OUTPUT_VARIABLE room_targets)
+install(TARGETS karcher ${room_targets} EXPORT KarcherTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT KarcherTargets NAMESPACE karcher:: DESTINATION ${package_directory})
+install(DIRECTORY include/karcher DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.hpp)
+
+configure_package_config_file(cmake/KarcherConfig.cmake.in ${PROJECT_BINARY_DIR}/KarcherConfig.cmake INSTALL_DESTINATION ${package_directory})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/KarcherConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/KarcherConfig.cmake ${PROJECT_BINARY_DIR}/KarcherConfigVersion.cmake cmake/Dependencies.cmake
+        DESTINATION ${package_directory})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

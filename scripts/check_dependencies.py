@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Proves that the rooms of the code use each other only in the direction of docs/architecture.md.
+
+    scripts/check_dependencies.py [ROOT]      check the tree (default: the one that holds this script); exit code 1 if an include is wrong
+    scripts/check_dependencies.py --self-test check that the checker finds each kind of wrong include in a tree made for it
+"""
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+# Room -> the rooms it uses directly; what those use it may use, too.
+USES = {
+    "math": [],
+    "manifold": ["math"],
+    "interpolation": ["manifold"],
+    "energy": ["manifold"],
+    "mesh": ["math"],
+    "field": ["mesh", "manifold"],
+    "assembly": ["interpolation", "energy", "field"],
+    "solve": ["assembly"],
+    "io": ["solve"],
+    "app": ["io"],
+    "testing": ["io"],  # laws and checks for users' own types; only tests use it
+}
+
+# Foreign headers that are the business of few. A pattern is matched against the path of the included header, a place against the path of the including file.
+FOREIGN = [
+    ("PETSc and MPI", r"(petsc.*|mpi)\.h$", r"(include/karcher|src)/(solve|field)/|(include/karcher|src)/mesh/partition"),
+    ("TOML", r"toml\+\+/|toml\.hpp$", r"src/app/|src/main\.cpp"),
+    ("expressions (muParser)", r"muParser", r"src/app/|src/main\.cpp"),
+    ("the command line (CLI11)", r"CLI/", r"src/app/|src/main\.cpp"),
+    ("compression and JSON", r"zlib\.h$|nlohmann/", r"(include/karcher|src)/(io|app)/|src/main\.cpp"),
+    ("the oracle ADOL-C", r"adolc/", r"tests/|bench/"),
+    ("GoogleTest", r"gtest/|gmock/", r"tests/|include/karcher/testing/"),
+    ("Google Benchmark", r"benchmark/", r"bench/"),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+SUFFIXES = {".hpp", ".cpp", ".h", ".inc"}
+
+
+def reachable(room):
+    """The room and all rooms it may use."""
+    found, todo = set(), [room]
+    while todo:
+        r = todo.pop()
+        if r not in found:
+            found.add(r)
+            todo += USES[r]
+    return found
+
+
+def room_of(path):
+    """Room of a file of include/karcher or src, or None (src/main.cpp, include/karcher/error.hpp, tests, bench, tutorials)."""
+    parts = path.parts
+    inside = parts[2:] if parts[:2] == ("include", "karcher") else parts[1:] if parts[0] == "src" else ()
+    return inside[0] if len(inside) > 1 else None
+
+
+def target_of(root, path, quote, name):
+    """The file of this tree that the include means, relative to root, or None for a foreign header."""
+    candidates = [path.parent / name] if quote == '"' else []
+    candidates += [Path("include") / name, Path("src") / name]
+    return next((c for c in candidates if (root / c).is_file()), None)
+
+
+def wrong_includes(root):
+    """Sentences, one for each include that breaks a rule."""
+    sentences = []
+    files = [p.relative_to(root) for folder in ("include", "src", "tests", "bench", "tutorials") for p in sorted((root / folder).rglob("*"))
+             if p.suffix in SUFFIXES]
+    for path in files:
+        text = (root / path).read_text()
+        room = room_of(path)
+        in_library = path.parts[0] in ("include", "src")
+        if room is not None and room not in USES:
+            sentences.append(f"{path}: {room}/ is no room; the rooms are {', '.join(USES)}.")
+            continue
+        for match in INCLUDE.finditer(text):
+            quote, name = match.groups()
+            place = f"{path}:{text.count(chr(10), 0, match.start(2)) + 1}"
+            for what, header, allowed in FOREIGN:
+                if re.match(header, name) and not re.match(allowed, str(path)):
+                    sentences.append(f"{place}: includes {name}, but this place does not know {what}.")
+            target = target_of(root, path, quote, name)
+            if target is None:
+                if name.startswith("karcher/"):
+                    sentences.append(f"{place}: includes {name}, which does not exist.")
+                continue
+            if ".." in Path(name).parts:
+                sentences.append(f"{place}: includes {name}; say it from include/ or src/ on.")
+                continue
+            used = room_of(target)
+            if not in_library or used is None:
+                if path.parts[0] == "tutorials" and target.parts[0] == "src":
+                    sentences.append(f"{place}: a tutorial includes {name}, which is not installed.")
+                continue
+            if path.parts[0] == "include" and target.parts[0] == "src":
+                sentences.append(f"{place}: a public header includes {name}, which is not installed.")
+            elif room is None:
+                if path != Path("src/main.cpp"):
+                    sentences.append(f"{place}: a header that every room may use includes {name} of the room {used}.")
+            elif used not in reachable(room):
+                sentences.append(f"{place}: {room} uses {used} ({name}); it may use {', '.join(sorted(reachable(room) - {room})) or 'no other room'}.")
+            elif target.parts[0] == "src" and used != room:
+                sentences.append(f"{place}: {room} includes {name}, which is private to {used}.")
+    return sentences
+
+
+def self_test():
+    """Every rule must object to its own violation and to nothing else."""
+    good = {
+        "include/karcher/error.hpp": "#pragma once\n",
+        "include/karcher/math/tensor.hpp": '#include "karcher/error.hpp"\n',
+        "include/karcher/manifold/sphere.hpp": '#include "karcher/math/tensor.hpp"\n',
+        "include/karcher/mesh/mesh.hpp": '#include "karcher/math/tensor.hpp"\n',
+        "include/karcher/field/field.hpp": '#include "karcher/mesh/mesh.hpp"\n#include "karcher/manifold/sphere.hpp"\n',
+        "include/karcher/testing/laws.hpp": '#include <gtest/gtest.h>\n#include "karcher/manifold/sphere.hpp"\n',
+        "src/mesh/partition.cpp": "#include <petscmat.h>\n",
+        "src/solve/solve.cpp": '#include <petscksp.h>\n#include <mpi.h>\n#include "linear.hpp"\n#include "solve/linear.hpp"\n#include "karcher/field/field.hpp"\n',
+        "src/solve/linear.hpp": "",
+        "src/io/vtu.cpp": "#include <zlib.h>\n",
+        "src/app/reader.cpp": "#include <toml++/toml.h>\n#include <muParser.h>\n#include <CLI/CLI.hpp>\n",
+        "tests/solve/solve_test.cpp": '#include <gtest/gtest.h>\n#include "solve/linear.hpp"\n',
+    }
+    bad = [
+        ("include/karcher/math/bad.hpp", '#include "karcher/manifold/sphere.hpp"', "math uses manifold"),
+        ("include/karcher/energy/bad.hpp", '#include "karcher/mesh/mesh.hpp"', "energy uses mesh"),
+        ("include/karcher/mesh/bad.hpp", '#include "karcher/manifold/sphere.hpp"', "mesh uses manifold"),
+        ("src/assembly/bad.cpp", "#include <petscvec.h>", "does not know PETSc"),
+        ("src/io/bad.cpp", "#include <mpi.h>", "does not know PETSc"),
+        ("src/mesh/bad.cpp", "  #  include <mpi.h>", "does not know PETSc"),
+        ("src/io/bad.cpp", "#include <toml++/toml.h>", "does not know TOML"),
+        ("src/solve/bad.cpp", "#include <nlohmann/json.hpp>", "does not know compression and JSON"),
+        ("src/math/bad.cpp", "#include <muParser.h>", "does not know expressions"),
+        ("src/field/bad.cpp", '#include "solve/linear.hpp"', "field uses solve"),
+        ("src/io/bad.cpp", '#include "solve/linear.hpp"', "private to solve"),
+        ("src/io/bad.cpp", '#include "../solve/linear.hpp"', "say it from include/"),
+        ("include/karcher/solve/bad.hpp", '#include "solve/linear.hpp"', "not installed"),
+        ("tutorials/bad.cpp", '#include "solve/linear.hpp"', "not installed"),
+        ("src/manifold/bad.cpp", '#include "karcher/testing/laws.hpp"', "manifold uses testing"),
+        ("src/manifold/bad.cpp", "#include <gtest/gtest.h>", "does not know GoogleTest"),
+        ("src/energy/bad.cpp", "#include <adolc/adolc.h>", "does not know the oracle"),
+        ("src/energy/bad.cpp", '#include "karcher/math/absent.hpp"', "does not exist"),
+        ("include/karcher/bad.hpp", '#include "karcher/math/tensor.hpp"', "every room may use"),
+        ("src/kitchen/bad.cpp", "", "kitchen/ is no room"),
+    ]
+    failures = []
+    for extra in [None] + bad:
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            for path, text in list(good.items()) + ([extra[:2]] if extra else []):
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text)
+            found = wrong_includes(root)
+            if (extra is None and found) or (extra and not (len(found) == 1 and extra[2] in found[0])):
+                failures.append(f"{extra}: {found}")
+    print("\n".join(failures) or f"Self-test: {len(bad)} wrong includes found, a good tree accepted.")
+    return 1 if failures else 0
+
+
+def main(arguments):
+    if arguments == ["--self-test"]:
+        return self_test()
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    found = wrong_includes(root)
+    print("\n".join(found) if found else "All includes point in the design's direction.")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""Keeps the documents true to the files they quote.
+
+A code block after a line `<!-- file: tutorials/hello_sphere.cpp -->` must be that file, letter by letter; after `<!-- lines: FILE FIRST LAST -->` it must be
+the lines from the first that contains FIRST to the next that contains LAST. Relative links must lead to a file that exists.
+
+    scripts/check_documents.py          report what is wrong (exit code 1)
+    scripts/check_documents.py --update write the quoted files into the blocks
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+QUOTE = re.compile(r"(<!-- (file|lines): (\S+)(?: \"(.*?)\" \"(.*?)\")? -->\n```\w*\n)(.*?)(^```$)", re.DOTALL | re.MULTILINE)
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+
+
+def quoted(kind, name, first, last):
+    """Text of the file, or of its lines from the one that contains `first` to the next one that contains `last`."""
+    text = (ROOT / name).read_text()
+    if kind == "file":
+        return text
+    lines = text.splitlines(keepends=True)
+    begin = next(i for i, line in enumerate(lines) if first in line)
+    end = next(i for i, line in enumerate(lines[begin:], begin) if last in line)
+    return "".join(lines[begin : end + 1])
+
+
+def main(update):
+    names = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True)
+    wrong = []
+    documents = [ROOT / name for name in names.stdout.split()]
+    for document in documents:
+        text = document.read_text()
+        here = document.relative_to(ROOT)
+
+        def renew(match):
+            head, kind, name, first, last, body, end = match.groups()
+            try:
+                truth = quoted(kind, name, first, last)
+            except (FileNotFoundError, StopIteration):
+                wrong.append(f"{here}: quotes {name}, which is missing or has no such lines.")
+                return match.group(0)
+            if body != truth and not update:
+                wrong.append(f"{here}: the block quoted from {name} differs from the file; `scripts/check_documents.py --update` renews it.")
+            return head + truth + end
+
+        renewed = QUOTE.sub(renew, text)
+        if update and renewed != text:
+            document.write_text(renewed)
+        for link in LINK.findall(re.sub(r"^```.*?^```$", "", renewed, flags=re.DOTALL | re.MULTILINE)):
+            if "://" not in link and not link.startswith("mailto:") and not (document.parent / link).exists():
+                wrong.append(f"{here}: links to {link}, which does not exist.")
+    print("\n".join(wrong) if wrong else f"{len(documents)} documents agree with the files they quote and link.")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:] == ["--update"]))

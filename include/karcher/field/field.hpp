@@ -8,10 +8,9 @@
 
 #include "karcher/field/space.hpp"
 #include "karcher/manifold/any_manifold.hpp"
+#include "karcher/manifold/rule.hpp"
 
 namespace karcher {
-
-enum class Rule { projection, geodesic };
 
 struct Field {
   std::string name;

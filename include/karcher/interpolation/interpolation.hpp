@@ -1,0 +1,106 @@
+#pragma once
+/// \file
+/// What an interpolation owes the kernels, and what both sides mean by local coordinates.
+///
+/// At a point of a cell, the first-order jet of a field is its value q and its derivatives d_a q in D orthonormal directions. Around the jet of the
+/// accepted configuration, jets have local coordinates y = (w, k_1, ..., k_D): q(w) is a chart of the manifold around q (w in the frame E at q), and
+/// k_a = d_a w. An interpolation gives
+///   the jet itself,
+///   A_i = dy/dv_i, the derivative with respect to the tangent coordinates v_i of node i (retraction of manifold.hpp), and
+///   for a covector f on local coordinates, the contraction f . d2y/dv_i dv_j of the exact second variation;
+/// a density W gives f = dW/dy and C = d2W/dy2 in the same coordinates. Then gradient_i = A_i^T f and Hessian_ij = A_i^T C A_j + contraction(f)_ij exactly.
+
+#include <array>
+#include <concepts>
+
+#include "karcher/manifold/manifold.hpp"
+#include "karcher/math/dual.hpp"
+
+namespace karcher {
+
+/// Value and derivatives of a field at a point, in ambient coordinates.
+template <class M, int D, class T>
+struct FieldJet {
+  using Manifold = M;
+  static constexpr int directions = D;
+  Point<M, T> value;
+  std::array<Vec<T, M::ambient>, static_cast<std::size_t>(D)> d{};
+};
+
+/// Number of local coordinates of a jet.
+template <class M, int D>
+inline constexpr int local_dim = (1 + D) * M::dim;
+
+template <class T>
+using MaskOf = decltype(T{} < T{});
+
+/// The weights of the nodes at a point: Lagrange basis values and derivatives in the D directions.
+template <int D, class T>
+struct Weights {
+  int count = 0;
+  const double* l = nullptr;                                  ///< [node]
+  const std::array<T, static_cast<std::size_t>(D)>* dl = nullptr;  ///< [node][direction]
+};
+
+/// Charts around q with the frame e.
+struct ExponentialChart {
+  template <class M, class T>
+  static Point<M, T> at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<T, M::dim>& w) {
+    return M::exp(q, e * w);
+  }
+};
+struct ProjectionChart {
+  template <class M, class T>
+  static Point<M, T> at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<T, M::dim>& w) {
+    return M::project(q + e * w);
+  }
+};
+
+/// The jet with local coordinates y around (q, e, k), over any scalar S that carries derivatives (S = Jet<T, n>): the density's side of the contract.
+template <class M, int D, class Chart, class T, class S>
+FieldJet<M, D, S> jet_at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<S, local_dim<M, D>>& y) {
+  constexpr int k = M::dim;
+  FieldJet<M, D, S> jet;
+  if constexpr (D == 0) {
+    jet.value = Chart::template at<M>(cast<S>(q), cast<S>(e), y);
+  } else {
+    using U = Dual<S, D>;
+    Vec<U, k> w;
+    for (int i = 0; i < k; ++i) {
+      w[i].v = y[i];
+      for (int a = 0; a < D; ++a) w[i].d[static_cast<std::size_t>(a)] = y[(1 + a) * k + i];
+    }
+    const auto x = Chart::template at<M>(cast<U>(cast<S>(q)), cast<U>(cast<S>(e)), w);
+    for (int c = 0; c < M::ambient; ++c) {
+      jet.value[c] = x[c].v;
+      for (int a = 0; a < D; ++a) jet.d[static_cast<std::size_t>(a)][c] = x[c].d[static_cast<std::size_t>(a)];
+    }
+  }
+  return jet;
+}
+
+/// Gaussian elimination of G X = B without pivoting, for the well-conditioned small matrices of the interpolations. Returns where all pivots are positive.
+template <class T, int N, int K>
+MaskOf<T> solve_in_place(Mat<T, N, N> g, Mat<T, N, K>& b) {
+  MaskOf<T> ok = g(0, 0) > T(0.0);
+  for (int p = 0; p < N; ++p) {
+    ok = ok & (g(p, p) > T(1e-10));
+    const T r = T(1.0) / g(p, p);
+    for (int i = p + 1; i < N; ++i) {
+      const T m = g(i, p) * r;
+      for (int j = p + 1; j < N; ++j) g(i, j) -= m * g(p, j);
+      for (int j = 0; j < K; ++j) b(i, j) -= m * b(p, j);
+    }
+  }
+  for (int p = N - 1; p >= 0; --p) {
+    const T r = T(1.0) / g(p, p);
+    for (int j = 0; j < K; ++j) {
+      T s = b(p, j);
+      for (int i = p + 1; i < N; ++i) s -= g(p, i) * b(i, j);
+      b(p, j) = s * r;
+    }
+  }
+  return ok;
+}
+
+}  // namespace karcher

@@ -1,0 +1,293 @@
+#pragma once
+/// \file
+/// Interpolation by a weighted mean that is given implicitly: sum_i l_i theta(q, p_i) = 0 in T_qM, for any manifold and any two-point tangent function theta.
+///
+/// theta(q, p) = log_q p is the Riemannian centre of mass, geodesic interpolation (Grohs 2013; Sander, "Geodesic finite elements of higher order", IMA J. Numer.
+/// Anal. 2016); theta(q, p) = chord(q, p), the tangential part of p - q, is the projection rule. Gradient and both variations follow from the implicit
+/// function theorem; derivatives of theta come from jets, so they are exact, and M needs to provide nothing but its exp and log (or chord).
+///
+/// In the exponential chart around q with a fixed frame E: w are the coordinates of q, k_a = d_a w, theta_i(w, v_i) = E^T theta(exp_q(E w), exp_{p_i}(E_i v_i)),
+///   F0 = sum l_i theta_i = 0,   F_a = sum l_{i,a} theta_i + sum l_i (d_w theta_i) k_a = 0,   G = -sum l_i d_w theta_i.
+/// The second variation is contracted with f through the Lagrangian f . y + eta . F0 + sum_a mu_a . F_a with the adjoints G^T mu_a = f_a,
+/// G^T eta = f_0 + sum_a U_a^T mu_a, U_a = sum l_{j,a} d_w theta_j + sum l_j d_ww theta_j [k_a]; third derivatives of theta appear only inside it.
+
+#include <algorithm>
+#include <vector>
+
+#include "karcher/interpolation/interpolation.hpp"
+
+namespace karcher {
+
+struct LogFunction {
+  template <class M, class T>
+  static Vec<T, M::ambient> at(const Point<M, T>& q, const Point<M, T>& p) {
+    return M::log(q, p);
+  }
+};
+struct ChordFunction {
+  template <class M, class T>
+  static Vec<T, M::ambient> at(const Point<M, T>& q, const Point<M, T>& p) {
+    return M::chord(q, p);
+  }
+};
+
+template <class M, class TwoPoint, int D, class T>
+class WeightedMean {
+ public:
+  using Manifold = M;
+  using Chart = ExponentialChart;
+  static constexpr int k = M::dim, N = M::ambient, L = local_dim<M, D>;
+
+  /// Once per cell, before evaluate(): starts the iterations and tests that the nodal values are close enough for a unique mean. Lanes where they are not are
+  /// false. Geodesic rule: all values must lie in the ball of half the injectivity radius around their plain mean (Afsari 2011: the mean with positive
+  /// weights is then unique); two values need only be closer than the injectivity radius, which is the same.
+  MaskOf<T> begin_cell(const Point<M, T>* nodes, int count) {
+    start_ = nodes[0];
+    const std::vector<double> equal(static_cast<std::size_t>(count), 1.0 / count);
+    MaskOf<T> ok = find(nodes, count, equal.data(), start_);
+    if constexpr (std::is_same_v<TwoPoint, LogFunction>) {
+      if (M::injectivity_radius < std::numeric_limits<double>::max()) {
+        const double limit = 0.5 * M::injectivity_radius;
+        for (int i = 0; i < count; ++i) {
+          const auto a = M::log(start_, nodes[i]);
+          ok = ok & (M::inner(start_, a, a) < T(limit * limit * (1 - 1e-10)));
+        }
+      }
+    }
+    return ok;
+  }
+
+  /// Value and derivatives. False in lanes where the iteration does not arrive at a minimiser (G positive definite) within the injectivity radius of all values.
+  MaskOf<T> evaluate(const Point<M, T>* nodes, const Weights<D, T>& weights) {
+    weights_ = weights;
+    q_ = start_;
+    MaskOf<T> ok = find(nodes, weights.count, weights.l, q_);
+    jet_.value = q_;
+    frame_ = M::frame(q_);
+    if constexpr (D > 0) {
+      Mat<T, k, D> right;
+      Mat<T, k, k> g;
+      for (int i = 0; i < weights.count; ++i) {
+        const auto theta = first_order(nodes[i]);
+        for (int c = 0; c < k; ++c) {
+          for (int e = 0; e < k; ++e) g(c, e) -= T(weights.l[i]) * theta[c].d[static_cast<std::size_t>(e)];
+          for (int a = 0; a < D; ++a) right(c, a) += weights.dl[i][static_cast<std::size_t>(a)] * theta[c].v;
+        }
+      }
+      ok = ok & solve_in_place(g, right);
+      for (int a = 0; a < D; ++a) {
+        k_[static_cast<std::size_t>(a)] = column(right, a);
+        jet_.d[static_cast<std::size_t>(a)] = frame_ * k_[static_cast<std::size_t>(a)];
+      }
+    }
+    return ok;
+  }
+  const FieldJet<M, D, T>& jet() const { return jet_; }
+  const Mat<T, N, k>& frame() const { return frame_; }
+  Vec<T, L> local_coordinates() const {
+    Vec<T, L> y;
+    for (int a = 0; a < D; ++a)
+      for (int c = 0; c < k; ++c) y[(1 + a) * k + c] = k_[static_cast<std::size_t>(a)][c];
+    return y;
+  }
+
+  void linearize(const Point<M, T>* nodes, std::vector<Mat<T, L, k>>& maps);
+  void add_second_variation(const Point<M, T>* nodes, const Vec<T, L>& f, Mat<T, k, k>* blocks);
+
+ private:
+  using J = Jet<T, 2 * k>;  // variables (w, v_i)
+
+  /// theta at w = 0 with its derivatives in w.
+  Vec<Dual<T, k>, k> first_order(const Point<M, T>& p) const {
+    using U = Dual<T, k>;
+    Vec<U, k> w;
+    for (int i = 0; i < k; ++i) w[i].d[static_cast<std::size_t>(i)] = T(1.0);
+    const auto q = M::exp(cast<U>(q_), cast<U>(frame_) * w);
+    return in_frame(TwoPoint::template at<M>(q, cast<U>(p)));
+  }
+  template <class S>
+  Vec<S, k> in_frame(const Vec<S, N>& a) const {
+    Vec<S, k> c;
+    const auto q = cast<S>(q_);
+    for (int i = 0; i < k; ++i) c[i] = M::inner(q, cast<S>(column(frame_, i)), a);
+    return c;
+  }
+  /// Newton's method for F0 = 0, from q.
+  MaskOf<T> find(const Point<M, T>* nodes, int count, const double* l, Point<M, T>& q);
+
+  Weights<D, T> weights_;
+  Point<M, T> start_, q_;
+  FieldJet<M, D, T> jet_;
+  Mat<T, N, k> frame_;
+  std::array<Vec<T, k>, D> k_{};
+  Mat<T, k, k> inverse_;                       // of G
+  std::array<Mat<T, k, k>, D> u_{};            // U_a
+  std::vector<std::array<Mat<T, k, k>, 1 + D>> variation_;  // w_i, k_{a,i}
+};
+
+// ---------------------------------------------------------------------------------------------------------------------------------------------------
+
+template <class M, class TwoPoint, int D, class T>
+MaskOf<T> WeightedMean<M, TwoPoint, D, T>::find(const Point<M, T>* nodes, int count, const double* l, Point<M, T>& q) {
+  constexpr int max_iterations = 40;
+  const MaskOf<T> yes = T(0.0) < T(1.0);
+  MaskOf<T> regular = yes, done = T(1.0) < T(0.0);
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    q_ = q;
+    frame_ = M::frame(q);
+    Mat<T, k, k> g;
+    Mat<T, k, 1> step;
+    for (int i = 0; i < count; ++i) {
+      if (l[i] == 0) continue;
+      const auto theta = first_order(nodes[i]);
+      for (int c = 0; c < k; ++c) {
+        step(c, 0) += T(l[i]) * theta[c].v;
+        for (int e = 0; e < k; ++e) g(c, e) -= T(l[i]) * theta[c].d[static_cast<std::size_t>(e)];
+      }
+    }
+    const Mat<T, k, 1> residual = step;
+    regular = solve_in_place(g, step);
+    // Away from a minimiser (or far from the solution) a plain gradient step, of length at most 1, leads back into the region of Newton's method.
+    const T residual2 = norm2(residual);
+    const T newton2 = norm2(step);
+    const MaskOf<T> trust = regular & (newton2 < T(1.0));
+    const T shorten = T(1.0) / sqrt(max(T(1.0), residual2));
+    Vec<T, k> w;
+    for (int c = 0; c < k; ++c) w[c] = select(done, T(0.0), select(trust, step(c, 0), shorten * residual(c, 0)));
+    q = M::exp(q, frame_ * w);
+    // The step that was just made from a residual of 1e-8 ends at rounding level: Newton's convergence is quadratic.
+    done = done | (regular & (newton2 < T(1e-18)));
+    if (all(done)) return done;
+  }
+  return done;
+}
+
+template <class M, class TwoPoint, int D, class T>
+void WeightedMean<M, TwoPoint, D, T>::linearize(const Point<M, T>* nodes, std::vector<Mat<T, L, k>>& maps) {
+  const auto count = static_cast<std::size_t>(weights_.count);
+  variation_.resize(count);
+  Vec<J, k> w;
+  for (int i = 0; i < k; ++i) w[i] = J::variable(T(0.0), i);
+  const auto q = M::exp(cast<J>(q_), cast<J>(frame_) * w);
+
+  Mat<T, k, k> g;
+  for (auto& u : u_) u = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const T l = T(weights_.l[i]);
+    Vec<J, k> v;
+    for (int c = 0; c < k; ++c) v[c] = J::variable(T(0.0), k + c);
+    const auto theta = in_frame(TwoPoint::template at<M>(q, M::exp(cast<J>(nodes[i]), cast<J>(M::frame(nodes[i])) * v)));
+    for (int c = 0; c < k; ++c)
+      for (int e = 0; e < k; ++e) {
+        g(c, e) -= l * theta[c].gradient(e);
+        variation_[i][0](c, e) = l * theta[c].gradient(k + e);
+        for (std::size_t a = 0; a < D; ++a) {
+          T ww = T(0.0), vw = T(0.0);
+          for (int m = 0; m < k; ++m) {
+            ww += theta[c].hessian(m, e) * k_[a][m];
+            vw += theta[c].hessian(m, k + e) * k_[a][m];
+          }
+          u_[a](c, e) += weights_.dl[i][a] * theta[c].gradient(e) + l * ww;
+          variation_[i][1 + a](c, e) = weights_.dl[i][a] * theta[c].gradient(k + e) + l * vw;
+        }
+      }
+  }
+  inverse_ = identity<T, k>();
+  solve_in_place(g, inverse_);
+  for (std::size_t i = 0; i < count; ++i) {
+    variation_[i][0] = inverse_ * variation_[i][0];
+    for (std::size_t a = 0; a < D; ++a) variation_[i][1 + a] = inverse_ * (variation_[i][1 + a] + u_[a] * variation_[i][0]);
+    for (int b = 0; b < 1 + D; ++b)
+      for (int c = 0; c < k; ++c)
+        for (int e = 0; e < k; ++e) maps[i](b * k + c, e) = variation_[i][static_cast<std::size_t>(b)](c, e);
+  }
+}
+
+template <class M, class TwoPoint, int D, class T>
+void WeightedMean<M, TwoPoint, D, T>::add_second_variation(const Point<M, T>* nodes, const Vec<T, L>& f, Mat<T, k, k>* blocks) {
+  const auto count = static_cast<std::size_t>(weights_.count);
+  // adjoints
+  std::array<Vec<T, k>, D> mu;
+  Vec<T, k> eta;
+  for (int c = 0; c < k; ++c) eta[c] = f[c];
+  for (std::size_t a = 0; a < D; ++a) {
+    Vec<T, k> fa;
+    for (int c = 0; c < k; ++c) fa[c] = f[static_cast<int>(1 + a) * k + c];
+    mu[a] = transpose_times(inverse_, fa);
+    eta += transpose_times(u_[a], mu[a]);
+  }
+  eta = transpose_times(inverse_, eta);
+
+  // theta with the directional derivatives along k_a: Dual over jets in (w, v_i).
+  using U = std::conditional_t<D == 0, J, Dual<J, D == 0 ? 1 : D>>;
+  Vec<U, k> w;
+  for (int c = 0; c < k; ++c) {
+    if constexpr (D == 0) {
+      w[c] = J::variable(T(0.0), c);
+    } else {
+      w[c].v = J::variable(T(0.0), c);
+      for (std::size_t a = 0; a < D; ++a) w[c].d[a] = J(k_[a][c]);
+    }
+  }
+  const auto q = M::exp(cast<U>(q_), cast<U>(frame_) * w);
+
+  Mat<T, k, k> sum_ww;                       // of the scalars s_i
+  std::array<Mat<T, k, k>, D> sum_n{};        // N_a
+  std::vector<Mat<T, k, k>> wv(count);        // s_i in (w, v_i)
+  std::vector<std::array<Mat<T, k, k>, D>> c_ai(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const T l = T(weights_.l[i]);
+    Vec<U, k> v;
+    for (int c = 0; c < k; ++c) v[c] = U(J::variable(T(0.0), k + c));
+    const auto theta = in_frame(TwoPoint::template at<M>(q, M::exp(cast<U>(nodes[i]), cast<U>(M::frame(nodes[i])) * v)));
+
+    J s;
+    for (int c = 0; c < k; ++c) {
+      T omega = l * eta[c];
+      for (std::size_t a = 0; a < D; ++a) omega += weights_.dl[i][a] * mu[a][c];
+      if constexpr (D == 0) {
+        J term = theta[c];
+        s += term.scale(omega);
+      } else {
+        J term = theta[c].v;
+        s += term.scale(omega);
+        for (std::size_t a = 0; a < D; ++a) {
+          J derivative = theta[c].d[a];
+          s += derivative.scale(l * mu[a][c]);
+        }
+      }
+    }
+    for (std::size_t a = 0; a < D; ++a) c_ai[i][a] = {};
+    for (int c = 0; c < k; ++c)
+      for (int e = 0; e < k; ++e) {
+        sum_ww(c, e) += s.hessian(c, e);
+        wv[i](c, e) = s.hessian(c, k + e);
+        blocks[i * count + i](c, e) += s.hessian(k + c, k + e);
+        if constexpr (D > 0) {
+          for (std::size_t a = 0; a < D; ++a) {
+            T ww = T(0.0), mixed = T(0.0);
+            for (int m = 0; m < k; ++m) {
+              ww += mu[a][m] * theta[m].v.hessian(c, e);
+              mixed += mu[a][m] * theta[m].v.hessian(c, k + e);
+            }
+            sum_n[a](c, e) += l * ww;
+            c_ai[i][a](c, e) = l * mixed;
+          }
+        }
+      }
+  }
+  // H_ij = w_i^T (1/2 S w_j + B_j) + (1/2 S w_i + B_i)^T w_j + sum_a k_{a,i}^T C_{a,j} + C_{a,i}^T k_{a,j}, C_{a,i} = N_a w_i + P_{a,i}
+  for (std::size_t i = 0; i < count; ++i) {
+    wv[i] += 0.5 * (sum_ww * variation_[i][0]);
+    for (std::size_t a = 0; a < D; ++a) c_ai[i][a] += sum_n[a] * variation_[i][0];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i; j < count; ++j) {
+      Mat<T, k, k>& h = blocks[i * count + j];
+      h += transpose_times(variation_[i][0], wv[j]) + transpose_times(wv[i], variation_[j][0]);
+      for (std::size_t a = 0; a < D; ++a)
+        h += transpose_times(variation_[i][1 + a], c_ai[j][a]) + transpose_times(c_ai[i][a], variation_[j][1 + a]);
+    }
+}
+
+}  // namespace karcher

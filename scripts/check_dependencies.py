@@ -26,7 +26,8 @@ USES = {
 
 # Foreign headers that are the business of few. A pattern is matched against the path of the included header, a place against the path of the including file.
 FOREIGN = [
-    ("PETSc and MPI", r"(petsc.*|mpi)\.h$", r"(include/karcher|src)/(solve|field)/|(include/karcher|src)/mesh/partition"),
+    ("PETSc, MPI and MUMPS", r"(petsc.*|mpi|dmumps_c)\.h$", r"(include/karcher|src)/(solve|field)/|(include/karcher|src)/mesh/partition|tests/solve/"),
+    ("METIS", r"metis\.h$", r"src/mesh/partition"),
     ("TOML", r"toml\+\+/|toml\.hpp$", r"src/app/|src/main\.cpp"),
     ("expressions (muParser)", r"muParser", r"src/app/|src/main\.cpp"),
     ("the command line (CLI11)", r"CLI/", r"src/app/|src/main\.cpp"),
@@ -131,6 +132,7 @@ def self_test():
         ("src/assembly/bad.cpp", "#include <petscvec.h>", "does not know PETSc"),
         ("src/io/bad.cpp", "#include <mpi.h>", "does not know PETSc"),
         ("src/mesh/bad.cpp", "  #  include <mpi.h>", "does not know PETSc"),
+        ("src/mesh/bad.cpp", "#include <metis.h>", "does not know METIS"),
         ("src/io/bad.cpp", "#include <toml++/toml.h>", "does not know TOML"),
         ("src/solve/bad.cpp", "#include <nlohmann/json.hpp>", "does not know compression and JSON"),
         ("src/math/bad.cpp", "#include <muParser.h>", "does not know expressions"),

@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Files that are whole or absent: a reader (or a kill) at any moment finds the previous content or the new one, never a part.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace karcher {
+
+/// Writes to a temporary file in the same directory, flushes it to the disk, renames it over `path` and flushes the directory.
+/// \throws Error naming the file and what the system said; `path` is unchanged then and no temporary file is left.
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// Whole content of a file. \throws InputError naming the file and what the system said.
+std::string read_whole(const std::filesystem::path& path);
+
+}  // namespace karcher

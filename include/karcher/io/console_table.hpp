@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// The table on the console while a problem is solved, and the report at its end.
+
+#include <cstdio>
+#include <string>
+
+#include "karcher/io/summary.hpp"
+#include "karcher/solve/report.hpp"
+
+namespace karcher {
+
+/// One aligned row per iteration, a headline per load step. On a terminal a last, transient line tells what is going on; elsewhere (a file, a pipe)
+/// only lasting lines are written, so logs stay clean.
+class ConsoleTable : public Observer {
+ public:
+  /// \param steps number of load steps, 0 if not known beforehand. Make one on the rank that talks only.
+  explicit ConsoleTable(std::FILE* out = stdout, int steps = 1);
+  ConsoleTable(std::FILE* out, int steps, bool terminal);
+  ~ConsoleTable() override;
+
+  void begin_step(int load_step, double t);
+  void iteration(const IterationRecord& record) override;
+  void end_step(const StepReport& report);
+  /// A lasting line between the rows ("load step halved", "results written to ...").
+  void line(const std::string& text);
+  /// Replaces the transient line; does nothing when `out` is no terminal.
+  void transient(const std::string& text);
+
+ private:
+  void erase_transient();
+
+  std::FILE* out_;
+  int steps_;
+  bool terminal_;
+  bool transient_shown_ = false;
+};
+
+/// Sizes, energies, load steps, time by phase, work, the reason: the whole summary for a reader. Several lines, each ended by a newline.
+std::string final_report(const Summary& summary);
+
+}  // namespace karcher

@@ -1,0 +1,68 @@
+#pragma once
+/// \file
+/// Output: a configuration seen at the Lagrange nodes of one order, region by region, in the ambient coordinates of its manifolds. Files and pictures are made of it.
+///
+/// Part 0 is the region of the main field (the deformation, else the field on the entities of highest dimension); every further region that carries a field is a
+/// part of its own. A part has every field that lives on all of its entities. The order is the highest of the part's fields and geometry.
+///
+/// Point data of a field u:  R^n, S^n, SU(2): ambient coordinates under the field's name.  SO(3): the unit quaternion under the field's name, and the columns
+/// d_1, d_2, d_3 of the rotation as "director1..3" ("<name>.director1..3" if several fields are rotations).  SPD(n): the n x n matrix, row by row.
+/// With a deformation m (R^n, n <= 3): points are m itself, "reference" is the place in the stress-free configuration, "displacement" = m - reference.
+/// Cell data: "energy_density.<term>" = energy of the term on the cell / reference measure of the cell (length, area, volume), for every term on the part.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "karcher/field/field.hpp"
+#include "karcher/io/cell_energy.hpp"
+
+namespace karcher {
+
+struct OutputArray {
+  std::string name;
+  int components = 1;
+  std::vector<double> values;  ///< [node or cell][component]
+};
+
+struct OutputCell {
+  CellKind kind = CellKind::vertex;
+  std::vector<int> nodes;  ///< into OutputPart::points, in the order of reference_cell.hpp for OutputPart::order
+};
+
+struct OutputPart {
+  std::string region;
+  int dim = 0;
+  int order = 1;
+  std::vector<Vec3<double>> points;
+  std::vector<OutputCell> cells;
+  std::vector<OutputArray> point_data, cell_data;
+};
+
+struct OutputModel {
+  std::vector<Field> fields;
+  int deformation = -1;            ///< index of the field that moves the points; -1: points stay in the mesh
+  std::vector<std::string> terms;  ///< names of the terms of the functional, distinct (summary.hpp)
+  /// Stress-free configuration, if it is not the mesh (TermInput::reference_position).
+  std::function<Vec3<double>(const Vec3<double>&)> reference_position;
+};
+
+class Output {
+ public:
+  explicit Output(OutputModel model);
+  ~Output();
+
+  /// \param u complete on this rank (values of all nodes); a node where the interpolation is not defined gets NaN
+  /// \param energies of all cells of all ranks; may be empty: no cell data then
+  std::vector<OutputPart> sample(const Configuration& u, std::span<const CellEnergy> energies) const;
+
+ private:
+  struct Part;
+  OutputModel model_;
+  std::vector<std::unique_ptr<Part>> parts_;
+};
+
+}  // namespace karcher

@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// Summary: what summary.json holds, key by key (docs/results.md), and how it is written and read back.
+///
+/// Every number reads back to the same double. JSON knows no NaN and no infinity: such numbers are written as null and read back as NaN; a count that is
+/// unknown (negative_eigenvalues = -1) is null, too.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "karcher/solve/report.hpp"
+
+namespace karcher {
+
+/// Energies of the terms in the order of the problem file.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+struct LoadStepSummary {
+  double t = 0;
+  Status status = Status::failed;
+  int iterations = 0;
+  double energy = 0, gradient_norm = 0;
+  int negative_eigenvalues = -1;  ///< -1: not known
+  std::map<std::string, std::vector<double>> probes;
+  double seconds = 0;
+  std::string reason;  ///< one sentence
+  WorkCounts work;
+};
+
+struct Summary {
+  std::string title, version;
+  Status status = Status::failed;
+  struct {
+    long cells = 0, nodes = 0;
+    int order = 1;
+  } mesh;
+  long unknowns = 0, free_unknowns = 0;
+  int ranks = 1;
+  double energy = 0;
+  NamedNumbers energies;                      ///< names must differ: see distinct_names
+  std::map<std::string, NamedNumbers> parts;  ///< term -> its parts, where the term can tell them apart
+  std::vector<LoadStepSummary> load_steps;
+  struct Error {
+    double l2 = 0, h1 = 0;
+  };
+  std::map<std::string, Error> errors;  ///< field -> distance to [exact]; empty without [exact]
+  struct {
+    double total = 0, assembly = 0, factorisation = 0, solve = 0, output = 0, setup = 0;
+  } seconds;
+  double peak_memory_mb = 0;  ///< sum over the ranks
+  std::string reason;         ///< one sentence: what was reached
+  WorkCounts work;            ///< over all load steps
+};
+
+/// A finished load step as the summary tells it; probes are added by the caller.
+LoadStepSummary summarize(const StepReport& report);
+
+/// Terms of the same name are told apart: "hyperelastic", "hyperelastic-2", ...
+std::vector<std::string> distinct_names(std::vector<std::string> names);
+
+std::string to_json(const Summary& summary);
+/// \throws InputError naming `source` where the text is not a summary (syntax, missing key, wrong type).
+Summary summary_from_json(const std::string& text, const std::string& source);
+
+/// Atomically (atomic_file.hpp): readable at any moment while the program runs.
+void write_summary(const std::filesystem::path& file, const Summary& summary);
+Summary read_summary(const std::filesystem::path& file);
+
+/// Largest resident memory of this process so far, in MB (10^6 bytes).
+double peak_memory_mb();
+
+}  // namespace karcher

@@ -12,7 +12,7 @@ build=(g++ cmake make ninja-build pkg-config libpetsc-real-dev libmetis-dev libo
        libtomlplusplus-dev libmuparser-dev libcli11-dev)
 test=(libgtest-dev libadolc-dev python3 python3-vtk9)
 bench=(libbenchmark-dev libadolc-dev)
-check=(clang-format python3)
+check=(clang-format python3 git)
 viewer=(chromium)
 
 wanted=()

@@ -9,23 +9,30 @@
 
 namespace karcher {
 
+struct Configuration;
+
 enum class Status { converged, not_converged, interrupted, failed };
 std::string_view name(Status s);  ///< "converged", "not-converged", "interrupted", "failed"
 
+/// One trial step, accepted or not.
 struct IterationRecord {
   int load_step = 0, iteration = 0;
-  double energy = 0, gradient_norm = 0;  ///< at the accepted point after this iteration
+  double energy = 0, gradient_norm = 0;  ///< at the accepted point after this iteration; the norm is |g|_* of solve/norm.hpp
   double step_norm = 0, radius = 0, shift = 0, ratio = 0;
   bool accepted = false;
   double seconds = 0;  ///< since the start of the run
+  std::string note;    ///< why a step was rejected, when there is more to say than its ratio: the cell where an evaluation failed
 };
 
+/// The cost of a run, in what it did. A solve costs about a twentieth of a factorisation, a gradient or an energy much less.
 struct WorkCounts {
   long factorisations = 0, hessians = 0, gradients = 0, energies = 0, solves = 0;
+  WorkCounts& operator+=(const WorkCounts& other);
 };
 
 struct PhaseSeconds {
   double assembly = 0, factorisation = 0, solve = 0;
+  PhaseSeconds& operator+=(const PhaseSeconds& other);
 };
 
 struct StepReport {
@@ -38,16 +45,20 @@ struct StepReport {
   std::vector<double> energies;  ///< one per term of the functional
   double gradient_norm = 0;
   int negative_eigenvalues = -1;  ///< of the true Hessian on the free unknowns; -1 unknown
+  int neutral_eigenvalues = 0;    ///< zero to rounding
   WorkCounts work;
   PhaseSeconds phases;
   double seconds = 0;
 };
 
-/// Tells tables, files and pages what happens; the solver knows no file.
+/// Tells tables, files and pages what happens; the solver knows no file. Called on all ranks, with the same arguments.
 class Observer {
  public:
   virtual ~Observer() = default;
+  virtual void load_step_begins(int /*load_step*/, double /*t*/) {}
   virtual void iteration(const IterationRecord&) {}
+  /// After every load step, converged or not; on several ranks u holds the nodes that this rank sees (see complete() in solve/exchange.hpp).
+  virtual void load_step_finished(const StepReport&, const Configuration& /*u*/) {}
 };
 
 }  // namespace karcher

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "karcher/assembly/functional.hpp"
 #include "karcher/field/field.hpp"
-#include "karcher/io/cell_energy.hpp"
 
 namespace karcher {
 
@@ -53,11 +53,16 @@ struct OutputModel {
 class Output {
  public:
   explicit Output(OutputModel model);
+  Output(Output&&) noexcept;
   ~Output();
 
-  /// \param u complete on this rank (values of all nodes); a node where the interpolation is not defined gets NaN
-  /// \param energies of all cells of all ranks; may be empty: no cell data then
-  std::vector<OutputPart> sample(const Configuration& u, std::span<const CellEnergy> energies) const;
+  /// Energy of every term on every cell of every part that this rank evaluates, zero elsewhere, in a flat array of the same length on every rank.
+  /// Summed over the ranks, entry by entry (Exchange::sum_all), it is what sample() takes.
+  std::vector<double> cell_energies(const Functional& functional, const Configuration& u) const;
+
+  /// \param u complete on this rank (values of all nodes, see complete() in solve/exchange.hpp); a node where an interpolation is not defined gets NaN
+  /// \param energies from cell_energies, summed over the ranks; empty: no cell data
+  std::vector<OutputPart> sample(const Configuration& u, std::span<const double> energies = {}) const;
 
  private:
   struct Part;

@@ -5,24 +5,13 @@
 /// A node belongs to a mesh vertex, an edge (identified by its two vertices), a face (by its vertices) or a cell, so spaces on a solid and on a part of its
 /// boundary share nodes where they touch, and the nodes of an entity are found from the entity's vertices alone.
 
-#include <array>
-#include <compare>
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "karcher/mesh/mesh.hpp"
+#include "karcher/mesh/node_key.hpp"
 
 namespace karcher {
-
-/// Identity of a Lagrange node, equal for spaces of different regions (and orders, where the places coincide) of one mesh: the sorted vertices of the smallest
-/// entity that holds it and its place there in sixths of the edge lengths, in a canonical orientation of the entity.
-struct NodeKey {
-  std::array<int, 8> vertices{-1, -1, -1, -1, -1, -1, -1, -1};
-  std::array<int, 3> place{0, 0, 0};
-  auto operator<=>(const NodeKey&) const = default;
-};
 
 class Space {
  public:
@@ -33,23 +22,25 @@ class Space {
   std::shared_ptr<const Mesh> mesh_ptr() const { return mesh_; }
   const Region& region() const { return region_; }
   int order() const { return order_; }
-  int node_count() const { return static_cast<int>(keys_.size()); }
+  int node_count() const { return static_cast<int>(positions_.size()); }
   /// Nodes of cell c of the region, in the order of reference_cell.hpp.
   const std::vector<int>& cell_nodes(int c) const { return cell_nodes_[static_cast<std::size_t>(c)]; }
   /// Nodes of any entity (for instance a boundary facet), in the order of reference_cell.hpp; empty if the space does not carry it.
   std::vector<int> entity_nodes(const Cell& entity) const;
   /// Place of a node on the mesh's own (curved) geometry.
   const Vec3<double>& position(int node) const { return positions_[static_cast<std::size_t>(node)]; }
-  const NodeKey& key(int node) const { return keys_[static_cast<std::size_t>(node)]; }
+  const NodeKey& key(int node) const { return numbering_.keys()[static_cast<std::size_t>(node)]; }
 
  private:
   std::shared_ptr<const Mesh> mesh_;
   Region region_;
   int order_;
-  std::vector<NodeKey> keys_;
+  bool carries(const Cell& entity, const std::vector<int>& nodes) const;
+
+  NodeNumbering numbering_;
   std::vector<Vec3<double>> positions_;
   std::vector<std::vector<int>> cell_nodes_;
-  std::map<NodeKey, int> index_;
+  std::vector<int> around_begin_, around_;  ///< cells of the region around every node that is a vertex, in compressed rows
 };
 
 }  // namespace karcher

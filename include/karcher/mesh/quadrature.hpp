@@ -2,7 +2,7 @@
 /// \file
 /// Quadrature on reference cells, exact for polynomials of the given degree, positive weights, interior points.
 /// Lines, quadrilaterals, hexahedra: products of Gauss rules with ceil((d+1)/2) points per direction. Simplices: symmetric rules (degree 1: centroid;
-/// degree 2 on a triangle: (1/6,1/6), (2/3,1/6), (1/6,2/3)).
+/// degree 2 on a triangle: (1/6,1/6), (2/3,1/6), (1/6,2/3)); beyond the highest symmetric rule conical products of Gauss-Jacobi rules.
 
 #include <vector>
 
@@ -17,7 +17,7 @@ struct Quadrature {
   int size() const { return static_cast<int>(weights.size()); }
 };
 
-/// \throws InputError if no rule of this degree is known for the kind (highest: see documentation of the file).
+/// Kept for the life of the program; safe to call from several threads. \throws InputError unless 0 <= degree <= 40.
 const Quadrature& quadrature(CellKind kind, int degree);
 
 }  // namespace karcher

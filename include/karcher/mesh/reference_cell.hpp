@@ -4,7 +4,11 @@
 ///
 /// Reference domains: line [0,1]; triangle {x, y >= 0, x + y <= 1}; quadrilateral [0,1]^2; tetrahedron; hexahedron [0,1]^3. Vertex order is that of VTK and
 /// Gmsh (quadrilateral counter-clockwise, hexahedron bottom then top). Nodes of order p are equispaced; their order is: vertices; interior nodes of edge 0
-/// from its first to its second vertex, edge 1, ...; interior nodes of face 0, ...; interior nodes of the cell.
+/// from its first to its second vertex, edge 1, ...; interior nodes of face 0, ...; interior nodes of the cell. Several interior nodes of a face or cell are
+/// numbered with their first coordinate running fastest, in the face's own reference coordinates (its first vertex the origin, x towards its second).
+///
+/// Edges: triangle 01 12 20; quadrilateral 01 12 23 30; tetrahedron 01 12 20 03 13 23; hexahedron 01 12 23 30, 45 56 67 74, 04 15 26 37.
+/// Faces, counter-clockwise seen from outside: tetrahedron 021 013 032 123; hexahedron 0321 4567 0154 2376 0473 1265.
 
 #include <array>
 #include <string_view>
@@ -22,7 +26,7 @@ int vertex_count(CellKind kind);
 int node_count(CellKind kind, int order);
 double reference_measure(CellKind kind);
 
-/// Local vertex numbers of every sub-entity of dimension 1 (edges) and 2 (faces; for a 2D cell: none, the cell itself is not listed).
+/// Local vertex numbers of every sub-entity of dimension 1 (edges; of a line: itself) and 2 (faces; of a 2D cell: none, it is not listed itself).
 const std::vector<std::array<int, 2>>& edges(CellKind kind);
 struct ReferenceFace {
   CellKind kind;
@@ -43,6 +47,7 @@ struct Shape {
   std::vector<std::array<double, 3>> gradient;  ///< [node][direction], directions beyond the dimension are 0
   std::vector<std::array<double, 6>> hessian;   ///< [node][xx, xy, xz, yy, yz, zz]
 };
+/// \throws InputError unless 1 <= order <= 3 (as do lagrange_nodes and facet_nodes).
 Shape lagrange(CellKind kind, int order, const Vec3<double>& xi);
 
 }  // namespace karcher

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "karcher/field/field.hpp"
+#include "karcher/math/aligned.hpp"
 #include "karcher/math/pack.hpp"
 
 namespace karcher {
@@ -37,7 +38,7 @@ struct Batch {
 struct BatchResult {
   std::array<double, native_width> energy{};
   std::array<Trouble, native_width> trouble{};
-  std::vector<double> gradient, hessian;  ///< resized by the caller to n * W and n * n * W
+  AlignedVector<double> gradient, hessian;  ///< resized by the caller to n * W and n * n * W
 };
 
 class Term {
@@ -55,6 +56,8 @@ class Term {
   virtual std::vector<double> part_energies(const Configuration&) const { return {}; }
   /// Called when the load parameter changes, before evaluations at the new value: data that depends on t is recomputed.
   virtual void set_load_parameter(double /*t*/) {}
+  /// Sentences for the user about data that the term can work with but that is suspicious (empty: none).
+  virtual std::vector<std::string> warnings() const { return {}; }
   /// The entity of the mesh behind index `cell` (for messages and output).
   virtual const Cell& cell(int cell) const = 0;
 };

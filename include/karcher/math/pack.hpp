@@ -56,7 +56,7 @@ struct Pack {
 
   Pack() = default;
   Pack(Native x) : v(x) {}
-  Pack(double x) : v(Native{} + x) {}
+  Pack(double x) : v(x - Native{}) {}  // x - 0 is x for every x (x + 0 is not, for -0), so this is one broadcast
   Pack(int x) : Pack(static_cast<double>(x)) {}
 
   double operator[](int l) const { return v[l]; }
@@ -111,15 +111,15 @@ Mask<W> operator!(Mask<W> a) {
 }
 template <int W>
 bool any(Mask<W> a) {
-  bool r = false;
-  for (int l = 0; l < W; ++l) r = r || a.v[l] != 0;
-  return r;
+  std::int64_t r = 0;
+  for (int l = 0; l < W; ++l) r |= a.v[l];
+  return r != 0;
 }
 template <int W>
 bool all(Mask<W> a) {
-  bool r = true;
-  for (int l = 0; l < W; ++l) r = r && a.v[l] != 0;
-  return r;
+  std::int64_t r = -1;
+  for (int l = 0; l < W; ++l) r &= a.v[l];
+  return r != 0;
 }
 template <int W>
 Pack<W> select(Mask<W> m, Pack<W> a, Pack<W> b) {

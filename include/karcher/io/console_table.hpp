@@ -18,11 +18,13 @@ class ConsoleTable : public Observer {
   explicit ConsoleTable(std::FILE* out = stdout, int steps = 1);
   ConsoleTable(std::FILE* out, int steps, bool terminal);
   ~ConsoleTable() override;
+  ConsoleTable(const ConsoleTable&) = delete;
+  ConsoleTable& operator=(const ConsoleTable&) = delete;
 
-  void begin_step(int load_step, double t);
+  void load_step_begins(int load_step, double t) override;
   void iteration(const IterationRecord& record) override;
-  void end_step(const StepReport& report);
-  /// A lasting line between the rows ("load step halved", "results written to ...").
+  void load_step_finished(const StepReport& report, const Configuration& u) override;
+  /// A lasting line between the rows ("results written to ...").
   void line(const std::string& text);
   /// Replaces the transient line; does nothing when `out` is no terminal.
   void transient(const std::string& text);

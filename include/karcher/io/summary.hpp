@@ -24,6 +24,7 @@ struct LoadStepSummary {
   int iterations = 0;
   double energy = 0, gradient_norm = 0;
   int negative_eigenvalues = -1;  ///< -1: not known
+  int neutral_eigenvalues = 0;
   std::map<std::string, std::vector<double>> probes;
   double seconds = 0;
   std::string reason;  ///< one sentence

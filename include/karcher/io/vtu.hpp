@@ -24,7 +24,7 @@ void write_vtu(const std::filesystem::path& file, const OutputPart& part, double
 /// The files of a run: <directory>/<stem>.pvd and <directory>/<stem>_0000.vtu, <stem>_0000.<region>.vtu for further parts.
 class VtuSeries {
  public:
-  explicit VtuSeries(std::filesystem::path directory, std::string stem = "solution");
+  explicit VtuSeries(std::filesystem::path directory, const std::string& stem = "solution");
   /// Continues the collection of an interrupted run: keeps its entries of states before `first_state`. \throws InputError if the .pvd is not ours.
   void resume(int first_state);
   /// Writes state number `state` (0: initial configuration, then written load steps) and updates the collection atomically.
@@ -34,7 +34,7 @@ class VtuSeries {
   struct Entry {
     int state = 0, part = 0;
     double t = 0;
-    std::string file;
+    std::string region, file;
   };
   std::filesystem::path directory_;
   std::string stem_;

@@ -112,6 +112,12 @@ bool Exchange::any(bool x) const {
   return all != 0;
 }
 
+double Exchange::max(double x) const {
+  double all = x;
+  if (ranks_ > 1) MPI_Allreduce(&x, &all, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  return all;
+}
+
 std::string Exchange::first_text(const std::string& text) const {
   int mine = text.empty() ? ranks_ : rank_, first = mine;
   if (ranks_ > 1) MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);

@@ -38,6 +38,7 @@ class Exchange {
   void sum_all(std::span<double> values) const;
   double dot(std::span<const double> a, std::span<const double> b) const;
   bool any(bool x) const;
+  double max(double x) const;
   /// Text of the lowest rank that has one; empty if none has.
   std::string first_text(const std::string& text) const;
 

@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// Evaluator: energy, gradient and Hessian of a functional summed over the ranks, with failures that all ranks know, and the proximal term of a gradient flow.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "karcher/assembly/functional.hpp"
+#include "karcher/solve/exchange.hpp"
+#include "karcher/solve/report.hpp"
+
+namespace karcher {
+
+/// A configuration and what is known of it.
+struct Iterate {
+  Configuration u;
+  double energy = 0;          ///< +infinity after a failure
+  std::vector<double> terms;  ///< energy of every term
+  double noise = 0;           ///< energies closer than this cannot be told apart
+  std::vector<double> g;      ///< local dofs, ghosts filled, fixed entries 0
+  double gradient_norm = 0;   ///< |g|_*
+  std::string failure;        ///< sentence; empty: none
+  bool ok() const { return failure.empty(); }
+};
+
+class Evaluator {
+ public:
+  Evaluator(Functional& functional, const Exchange& exchange, const std::vector<char>& fixed, const std::vector<double>& mass, WorkCounts& work,
+            PhaseSeconds& phases);
+
+  /// From now on E(u) + 1/(2 tau) sum_i m_i dist(u_i, centre_i)^2, m the lumped mass of each field's space; tau = 0: E alone.
+  void set_proximal(const Configuration& centre, double tau);
+
+  /// Fill everything of x but x.u. Collective.
+  void gradient(Iterate& x);
+  void hessian(Iterate& x, BlockMatrix& h);
+
+ private:
+  void finish(Iterate& x, const Evaluation& local, double proximal);
+  double proximal(const Configuration& u, std::span<double> g, BlockMatrix* h) const;
+
+  Functional& functional_;
+  const Exchange& exchange_;
+  const std::vector<char>& fixed_;
+  const std::vector<double>& mass_;
+  WorkCounts& work_;
+  PhaseSeconds& phases_;
+  Configuration centre_;
+  double tau_ = 0;
+  std::vector<std::vector<double>> nodal_mass_;  ///< [field][node]
+};
+
+}  // namespace karcher

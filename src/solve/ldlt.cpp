@@ -1,0 +1,198 @@
+#include "solve/ldlt.hpp"
+
+#include <dmumps_c.h>
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "karcher/error.hpp"
+#include "karcher/mesh/partition.hpp"
+#include "karcher/solve/petsc.hpp"
+
+namespace karcher {
+namespace {
+
+/// Neighbours of every block over all ranks, on rank 0 (elsewhere empty).
+Graph gather_block_graph(const Exchange& exchange, const BlockMatrix& m) {
+  std::vector<int> pairs;
+  const std::vector<int>& global = exchange.local_to_global();
+  for (std::size_t i = 0; i + 1 < m.row_begin.size(); ++i)
+    for (int k = m.row_begin[i]; k < m.row_begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(m.column[static_cast<std::size_t>(k)]);
+      if (i != j) pairs.insert(pairs.end(), {global[i], global[j]});
+    }
+  if (exchange.ranks() > 1) {
+    const int mine = static_cast<int>(pairs.size());
+    std::vector<int> counts(static_cast<std::size_t>(exchange.ranks())), begin(counts.size() + 1, 0);
+    MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, PETSC_COMM_WORLD);
+    for (std::size_t r = 0; r < counts.size(); ++r) begin[r + 1] = begin[r] + counts[r];
+    std::vector<int> all(exchange.rank() == 0 ? static_cast<std::size_t>(begin.back()) : 0);
+    MPI_Gatherv(pairs.data(), mine, MPI_INT, all.data(), counts.data(), begin.data(), MPI_INT, 0, PETSC_COMM_WORLD);
+    pairs.swap(all);
+  }
+  Graph graph;
+  if (exchange.rank() != 0) return graph;
+  const auto n = static_cast<std::size_t>(exchange.offsets().back());
+  std::vector<std::vector<int>> neighbours(n);
+  for (std::size_t k = 0; k < pairs.size(); k += 2) {
+    neighbours[static_cast<std::size_t>(pairs[k])].push_back(pairs[k + 1]);
+    neighbours[static_cast<std::size_t>(pairs[k + 1])].push_back(pairs[k]);
+  }
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    graph.adjacent.insert(graph.adjacent.end(), list.begin(), list.end());
+    graph.begin.push_back(static_cast<int>(graph.adjacent.size()));
+  }
+  return graph;
+}
+
+}  // namespace
+
+struct Ldlt::Mumps {
+  DMUMPS_STRUC_C id{};
+  std::vector<int> row, column, permutation;
+  std::vector<std::int64_t> source;  ///< place in BlockMatrix::values
+  std::vector<double> values;        ///< entries of the matrix, then the diagonal of the owned dofs
+  std::vector<double> all;           ///< right hand side and solution on rank 0
+  std::vector<int> counts, begin;    ///< owned dofs by rank
+  bool alive = false;
+
+  int& control(int i) { return id.icntl[i - 1]; }
+  int info(int i) const { return id.infog[i - 1]; }
+  void call(int job) {
+    id.job = job;
+    dmumps_c(&id);
+  }
+  void require(const char* what) const {
+    if (info(1) >= 0) return;
+    if (info(1) == -13 || info(1) == -9 || info(1) == -8)
+      throw Error(fmt::format("There is not enough memory to {} a matrix of {} unknowns (MUMPS {}, {}).", what, id.n, info(1), info(2)));
+    throw Error(fmt::format("MUMPS could not {} a matrix of {} unknowns: INFOG(1) = {}, INFOG(2) = {}.", what, id.n, info(1), info(2)));
+  }
+};
+
+Ldlt::Ldlt(const Exchange& exchange, const BlockMatrix& pattern, std::vector<char> fixed)
+    : exchange_(exchange), fixed_(std::move(fixed)), mumps_(std::make_unique<Mumps>()) {
+  Mumps& m = *mumps_;
+  const int bs = pattern.block_size;
+  const std::vector<int>& global = exchange.local_to_global();
+  const auto add = [&](std::size_t i, std::size_t j, int r, int c, std::int64_t source) {
+    if (fixed_[i * static_cast<std::size_t>(bs) + static_cast<std::size_t>(r)] ||
+        fixed_[j * static_cast<std::size_t>(bs) + static_cast<std::size_t>(c)])
+      return;
+    m.row.push_back(global[i] * bs + r + 1);
+    m.column.push_back(global[j] * bs + c + 1);
+    m.source.push_back(source);
+  };
+  for (std::size_t i = 0; i + 1 < pattern.row_begin.size(); ++i)
+    for (int k = pattern.row_begin[i]; k < pattern.row_begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(pattern.column[static_cast<std::size_t>(k)]);
+      const std::int64_t at = static_cast<std::int64_t>(k) * bs * bs;
+      for (int c = 0; c < bs; ++c)
+        for (int r = 0; r < (i == j ? c + 1 : bs); ++r) add(i, j, r, c, at + c * bs + r);
+    }
+  for (int d = 0; d < exchange.owned_dofs(); ++d) {
+    m.row.push_back(exchange.owned_begin() * bs + d + 1);
+    m.column.push_back(m.row.back());
+  }
+  m.values.assign(m.row.size(), 0.0);
+  for (std::size_t r = 0; r + 1 < exchange.offsets().size(); ++r) {
+    m.begin.push_back(exchange.offsets()[r] * bs);
+    m.counts.push_back((exchange.offsets()[r + 1] - exchange.offsets()[r]) * bs);
+  }
+
+  const Graph graph = gather_block_graph(exchange, pattern);
+  if (exchange.rank() == 0)
+    for (int place : fill_reducing_order(graph))
+      for (int r = 0; r < bs; ++r) m.permutation.push_back(place * bs + r + 1);
+
+  m.id.par = 1;
+  m.id.sym = 2;  // symmetric, indefinite: 1x1 and 2x2 pivots
+  m.id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(PETSC_COMM_WORLD));
+  m.call(-1);
+  m.require("start on");
+  m.alive = true;
+  for (int output : {1, 2, 3}) m.control(output) = -1;
+  m.control(4) = 0;
+  m.control(6) = 0;     // no permutation to a better diagonal: it is good
+  m.control(12) = 1;    // and no compression for it
+  m.control(13) = 1;    // no ScaLAPACK for the root: it would lose the inertia
+  m.control(14) = 100;  // per cent of room for delayed pivots
+  m.control(24) = 1;    // find null pivots
+  m.id.n = exchange.global_dofs();
+  const auto entries = static_cast<MUMPS_INT8>(m.values.size());
+  if (exchange.ranks() == 1) {
+    m.id.nnz = entries;
+    m.id.irn = m.row.data();
+    m.id.jcn = m.column.data();
+    m.id.a = m.values.data();
+  } else {
+    m.control(18) = 3;
+    m.id.nnz_loc = entries;
+    m.id.irn_loc = m.row.data();
+    m.id.jcn_loc = m.column.data();
+    m.id.a_loc = m.values.data();
+  }
+  m.id.perm_in = m.permutation.data();
+  const auto analyse = [&](int order) {
+    m.control(7) = order;
+    m.call(1);
+    m.require("analyse");
+    return m.id.rinfog[0];
+  };
+  // Minimum degree often wins on small surfaces, nested dissection on large ones and in 3D, and it alone gives the ranks independent work.
+  constexpr int minimum_degree = 0, given = 1;
+  const double other = exchange.ranks() == 1 ? analyse(minimum_degree) : 0;
+  if (analyse(given) > other && exchange.ranks() == 1) analyse(minimum_degree);
+}
+
+Ldlt::~Ldlt() {
+  int over = 0;
+  MPI_Finalized(&over);
+  if (mumps_->alive && !over) mumps_->call(-2);
+}
+
+Inertia Ldlt::factor(const BlockMatrix& h, double shift, std::span<const double> mass) {
+  Mumps& m = *mumps_;
+  for (std::size_t k = 0; k < m.source.size(); ++k) m.values[k] = h.values[static_cast<std::size_t>(m.source[k])];
+  for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d)
+    m.values[m.source.size() + d] = fixed_[d] ? 1.0 : shift * mass[d];
+  m.call(2);
+  for (int tries = 0; (m.info(1) == -8 || m.info(1) == -9) && tries < 4; ++tries) {  // more delayed pivots than there is room for
+    m.control(14) *= 2;
+    m.call(2);
+  }
+  m.require("factorise");
+  return {m.info(12), m.info(28)};
+}
+
+void Ldlt::solve(std::span<const double> b, std::span<double> x) {
+  Mumps& m = *mumps_;
+  const auto owned = static_cast<std::size_t>(exchange_.owned_dofs());
+  m.all.resize(exchange_.rank() == 0 ? static_cast<std::size_t>(exchange_.global_dofs()) : 0);
+  std::vector<double> mine(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(owned));
+  for (std::size_t d = 0; d < owned; ++d)
+    if (fixed_[d]) mine[d] = 0;
+  if (exchange_.ranks() == 1)
+    m.all.swap(mine);
+  else
+    MPI_Gatherv(mine.data(), static_cast<int>(owned), MPI_DOUBLE, m.all.data(), m.counts.data(), m.begin.data(), MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  m.id.rhs = m.all.data();
+  m.id.nrhs = 1;
+  m.id.lrhs = m.id.n;
+  m.call(3);
+  m.require("solve with");
+  if (exchange_.ranks() == 1)
+    std::copy(m.all.begin(), m.all.end(), x.begin());
+  else
+    MPI_Scatterv(m.all.data(), m.counts.data(), m.begin.data(), MPI_DOUBLE, x.data(), static_cast<int>(owned), MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  exchange_.update_ghosts(x);
+}
+
+double Ldlt::flops() const { return mumps_->id.rinfog[0]; }
+double Ldlt::factor_mb() const { return mumps_->info(22); }
+
+}  // namespace karcher

@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// Ldlt: sparse factorisation P^T (H + shift M) P = L D L^T on the free unknowns by MUMPS (Amestoy, Duff, L'Excellent, Koster 2001), with the inertia of the
+/// matrix (Sylvester: the signs of D). MUMPS is called directly, not through PETSc: PETSc does not hand on an elimination order for symmetric matrices, and
+/// copies the matrix once more. The contributions of the ranks are summed by MUMPS, so no rank assembles another's rows.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "karcher/assembly/block_matrix.hpp"
+#include "karcher/solve/exchange.hpp"
+
+namespace karcher {
+
+struct Inertia {
+  int negative = 0;
+  int null = 0;  ///< pivots that vanish to rounding
+};
+
+class Ldlt {
+ public:
+  /// Analyses the pattern once; values do not matter. fixed: one flag for each local dof; fixed rows and columns are those of the identity. Collective.
+  Ldlt(const Exchange& exchange, const BlockMatrix& pattern, std::vector<char> fixed);
+  ~Ldlt();
+  Ldlt(const Ldlt&) = delete;
+  Ldlt& operator=(const Ldlt&) = delete;
+
+  /// H + shift * diag(mass), mass by local dof (owned entries are used). \throws Error if MUMPS gives up (memory). Collective.
+  Inertia factor(const BlockMatrix& h, double shift, std::span<const double> mass);
+  /// x = (P L D L^T P^T)^-1 b on owned dofs; ghosts of x are filled, fixed entries are 0. b and x may be the same. Collective.
+  void solve(std::span<const double> b, std::span<double> x);
+
+  double flops() const;      ///< of one factorisation, estimated
+  double factor_mb() const;  ///< memory of all ranks together after the last factorisation
+
+ private:
+  struct Mumps;
+  const Exchange& exchange_;
+  std::vector<char> fixed_;
+  std::unique_ptr<Mumps> mumps_;
+};
+
+}  // namespace karcher

@@ -1,0 +1,457 @@
+#include "karcher/solve/minimize.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "karcher/error.hpp"
+#include "karcher/solve/norm.hpp"
+#include "solve/evaluator.hpp"
+#include "solve/model.hpp"
+#include "solve/stopwatch.hpp"
+
+namespace karcher {
+
+std::atomic<bool> interrupt_requested = false;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int most_escapes = 20;
+
+double seconds_since_start() {
+  static double none = 0;
+  static const Stopwatch clock(none);
+  return clock.elapsed();
+}
+[[maybe_unused]] const double started = seconds_since_start();
+
+std::vector<char> fixed_flags(const Layout& layout) {
+  std::vector<char> fixed(static_cast<std::size_t>(layout.local_dofs()));
+  for (std::size_t d = 0; d < fixed.size(); ++d) fixed[d] = layout.fixed(static_cast<int>(d));
+  return fixed;
+}
+
+/// Tangent coordinates of the way from u to the fixed components of `boundary`; free components 0.
+std::vector<double> boundary_increment(const Layout& layout, const Configuration& u, const Configuration& boundary) {
+  std::vector<double> delta(static_cast<std::size_t>(layout.local_dofs()), 0.0);
+  for (int f = 0; f < static_cast<int>(layout.fields().size()); ++f) {
+    const ManifoldOps& manifold = *layout.fields()[static_cast<std::size_t>(f)].manifold;
+    const auto ambient = static_cast<std::size_t>(manifold.ambient), dim = static_cast<std::size_t>(manifold.dim);
+    std::vector<double> frame(ambient * dim), column(ambient), a(ambient);
+    for (int node : layout.local_nodes(f)) {
+      const int first = layout.first_dof(f, node);
+      bool any = false;
+      for (int k = 0; k < manifold.dim; ++k) any = any || layout.fixed(first + k);
+      const double *p = u.at(f, node, manifold.ambient), *q = boundary.at(f, node, manifold.ambient);
+      if (!any || std::equal(p, p + ambient, q)) continue;
+      manifold.log(p, q, a.data());
+      manifold.frame(p, frame.data());
+      for (std::size_t k = 0; k < dim; ++k) {
+        if (!layout.fixed(first + static_cast<int>(k))) continue;
+        for (std::size_t i = 0; i < ambient; ++i) column[i] = frame[i * dim + k];
+        delta[static_cast<std::size_t>(first) + k] = manifold.inner(p, column.data(), a.data());
+      }
+    }
+  }
+  return delta;
+}
+
+/// As Layout::retract, but fixed components move, too.
+void retract_all(const Layout& layout, const Configuration& from, std::span<const double> step, Configuration& to) {
+  for (int f = 0; f < static_cast<int>(layout.fields().size()); ++f) {
+    const ManifoldOps& manifold = *layout.fields()[static_cast<std::size_t>(f)].manifold;
+    for (int node : layout.local_nodes(f))
+      manifold.retract(from.at(f, node, manifold.ambient), step.data() + layout.first_dof(f, node), to.at(f, node, manifold.ambient));
+  }
+}
+
+/// Nodes that are wholly fixed get the prescribed value itself, not what rounding has made of it.
+void copy_fixed_nodes(const Layout& layout, const Configuration& boundary, Configuration& u) {
+  for (int f = 0; f < static_cast<int>(layout.fields().size()); ++f) {
+    const ManifoldOps& manifold = *layout.fields()[static_cast<std::size_t>(f)].manifold;
+    for (int node : layout.local_nodes(f)) {
+      bool all = true;
+      for (int k = 0; k < manifold.dim; ++k) all = all && layout.fixed(layout.first_dof(f, node) + k);
+      if (all) std::copy_n(boundary.at(f, node, manifold.ambient), manifold.ambient, u.at(f, node, manifold.ambient));
+    }
+  }
+}
+
+std::string known(const std::string& key, const std::string& value, std::initializer_list<const char*> names) {
+  std::string list;
+  for (const char* n : names) {
+    if (value == n) return {};
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", n);
+  }
+  return fmt::format("The solver has no {} \"{}\"; it has {}.", key, value, list);
+}
+
+}  // namespace
+
+std::vector<std::string> SolverOptions::validate() const {
+  std::vector<std::string> wrong;
+  const auto add = [&](std::string sentence) {
+    if (!sentence.empty()) wrong.push_back(std::move(sentence));
+  };
+  add(known("method", method, {"trust-region", "gradient-flow"}));
+  add(known("subproblem", subproblem, {"direct"}));
+  add(known("norm", norm, {"mass"}));
+  if (!(gradient_tolerance >= 0 && gradient_tolerance < 1)) add(fmt::format("gradient_tolerance must be in [0, 1), but is {}.", gradient_tolerance));
+  if (!(absolute_gradient_tolerance >= 0))
+    add(fmt::format("absolute_gradient_tolerance must not be negative, but is {}.", absolute_gradient_tolerance));
+  if (!(step_tolerance >= 0)) add(fmt::format("step_tolerance must not be negative, but is {}.", step_tolerance));
+  if (max_iterations < 0) add(fmt::format("max_iterations must not be negative, but is {}.", max_iterations));
+  if (!(initial_radius >= 0 && initial_radius < infinity))
+    add(fmt::format("initial_radius must be 0 (chosen) or positive, but is {}.", initial_radius));
+  if (max_corrections < 0) add(fmt::format("max_corrections must not be negative, but is {}.", max_corrections));
+  return wrong;
+}
+
+struct Minimizer::State {
+  Functional& functional;
+  const Layout& layout;
+  SolverOptions options;
+  Exchange exchange;
+  std::vector<char> fixed;
+  std::vector<double> mass;
+  WorkCounts work;
+  PhaseSeconds phases;
+  Evaluator evaluator;
+  BlockMatrix h;
+  std::unique_ptr<Ldlt> ldlt;
+  std::unique_ptr<TrustRegionModel> model;
+  Configuration factored_at;  ///< where the model's matrix and factorisation belong; no values: nowhere
+
+  // Of the current run.
+  Task task;
+  std::span<Observer* const> observers;
+  StepReport report;
+  Iterate current;
+  double largest_gradient = 0, radius = 1;
+  int escapes = 0;
+
+  State(Functional& f, SolverOptions o)
+      : functional(f),
+        layout(f.layout()),
+        options(std::move(o)),
+        exchange(layout),
+        fixed(fixed_flags(layout)),
+        mass(step_mass(layout)),
+        evaluator(functional, exchange, fixed, mass, work, phases),
+        h(functional.make_matrix()) {}
+
+  double tolerance() const {
+    const double relative = task.gradient_tolerance > 0 ? task.gradient_tolerance : options.gradient_tolerance;
+    return std::max(relative * largest_gradient, options.absolute_gradient_tolerance);
+  }
+  double size(std::span<const double> s) const {
+    double square = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(exchange.owned_dofs()); ++d) square += mass[d] * s[d] * s[d];
+    return std::sqrt(exchange.sum(square));
+  }
+
+  bool factor_at_current();
+  Iterate moved(const Configuration& from, std::span<const double> s);
+  void correct(Iterate& x, double lambda, double base_energy, double limit);
+  bool predict(Configuration& u);
+  bool escape_saddle();
+  bool iterate();
+  bool count_negative_eigenvalues();
+  bool end(const std::string& test);
+  void stop(Status status, std::string reason) {
+    report.status = status;
+    report.reason = std::move(reason);
+  }
+  void tell(const IterationRecord& record) {
+    for (Observer* o : observers) o->iteration(record);
+  }
+};
+
+/// Hessian at the current iterate and its factorisation, if they are not there already. False if the Hessian could not be evaluated.
+bool Minimizer::State::factor_at_current() {
+  const bool same_place = !exchange.any(factored_at.values.empty() || factored_at.values != current.u.values);
+  std::vector<double> before;
+  if (same_place) before = h.values;
+  evaluator.hessian(current, h);
+  if (!current.ok()) {
+    factored_at.values.clear();
+    return false;
+  }
+  // The matrix may be the same although the load has changed (dead loads): then so is the factorisation.
+  if (same_place && !exchange.any(before != h.values)) {
+    model->set_gradient(current.g);
+    return true;
+  }
+  if (!ldlt) {
+    Stopwatch watch(phases.factorisation);
+    ldlt = std::make_unique<Ldlt>(exchange, h, fixed);
+    model = std::make_unique<TrustRegionModel>(exchange, *ldlt, fixed, mass, work, phases);
+  }
+  model->set(h, current.g, 0.0);
+  factored_at.values = current.u.values;
+  return true;
+}
+
+/// retract(from, s), evaluated.
+Iterate Minimizer::State::moved(const Configuration& from, std::span<const double> s) {
+  Iterate x;
+  x.u = from;
+  layout.retract(from, s, x.u);
+  evaluator.gradient(x);
+  return x;
+}
+
+/// Simplified Newton steps from x with the model's factorisation, as long as they pay. Tangent coordinates at x are taken for those where the
+/// matrix was made: for body frames the natural transport, and in any case the energy decides.
+void Minimizer::State::correct(Iterate& x, double lambda, double base_energy, double limit) {
+  std::vector<double> c(x.g.size());
+  for (int k = 0; k < options.max_corrections && x.ok() && x.gradient_norm > tolerance(); ++k) {
+    model->precondition(x.g, lambda, c);
+    const double length = size(c), scale = length > limit ? -limit / length : -1.0;
+    for (double& v : c) v *= scale;
+    Iterate next = moved(x.u, c);
+    const double gain = x.energy - next.energy;
+    const bool steadier = next.gradient_norm <= 0.5 * x.gradient_norm;
+    if (!next.ok() || !(gain > (steadier ? -10 * x.noise : 0.0))) break;
+    const double total = base_energy - next.energy;
+    const bool pays = total > 0 ? gain > 0.05 * total : gain > 0.3 * (x.energy - base_energy);
+    x = std::move(next);
+    if (!pays && !steadier) break;
+  }
+}
+
+/// Moves the boundary to its prescribed values and everything else with it by the linear problem. False if the boundary does not move.
+bool Minimizer::State::predict(Configuration& u) {
+  std::vector<double> delta = boundary_increment(layout, u, *task.boundary);
+  const bool moves = exchange.any(std::any_of(delta.begin(), delta.end(), [](double x) { return x != 0; }));
+  if (!moves) {
+    copy_fixed_nodes(layout, *task.boundary, u);
+    return false;
+  }
+  Iterate naive;
+  naive.u = u;
+  retract_all(layout, u, delta, naive.u);
+  copy_fixed_nodes(layout, *task.boundary, naive.u);
+  evaluator.gradient(naive);
+
+  current.u = u;
+  Iterate predicted;
+  predicted.energy = infinity;
+  if (factor_at_current()) {
+    std::vector<double> pull(delta.size());
+    multiply(exchange, h, {}, delta, pull);
+    for (std::size_t d = 0; d < pull.size(); ++d) pull[d] = fixed[d] ? 0 : pull[d] + current.g[d];
+    model->set_gradient(pull);
+    const TrustRegionModel::Step step = model->step(10 * radius, 1e-3);
+    for (std::size_t d = 0; d < delta.size(); ++d) delta[d] += step.s[d];
+    predicted.u = u;
+    retract_all(layout, u, delta, predicted.u);
+    copy_fixed_nodes(layout, *task.boundary, predicted.u);
+    evaluator.gradient(predicted);
+    largest_gradient = 0;
+    if (predicted.ok()) correct(predicted, step.multiplier, infinity, radius);
+  }
+  current = predicted.energy <= naive.energy ? std::move(predicted) : std::move(naive);
+  return true;
+}
+
+/// From a saddle along the lowest eigenvector of the Hessian. False if no decrease is found.
+bool Minimizer::State::escape_saddle() {
+  model->find_negative_directions();
+  std::vector<double> direction = model->lowest_direction();
+  exchange.update_ghosts(direction);
+  const double slope = exchange.dot(direction, current.g);
+  Iterate best;
+  best.energy = current.energy - 10 * current.noise;
+  bool found = false;
+  for (double length = slope > 0 ? -1e-3 : 1e-3; std::abs(length) < 3; length *= 2) {
+    std::vector<double> s = direction;
+    for (double& x : s) x *= length;
+    Iterate x = moved(current.u, s);
+    if (x.ok() && x.energy < best.energy) {
+      best = std::move(x);
+      found = true;
+    } else if (found) {
+      break;
+    }
+  }
+  if (found) current = std::move(best);
+  return found;
+}
+
+/// Inertia of the true Hessian at the current iterate, into the report. False if it cannot be evaluated.
+bool Minimizer::State::count_negative_eigenvalues() {
+  if (!factor_at_current()) return false;
+  if (model->shift() != 0) model->refactor(0.0);
+  double stiffest = 0;
+  const auto bs = static_cast<std::size_t>(h.block_size);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(exchange.owned_dofs()); ++d)
+    if (!fixed[d]) {
+      const std::size_t at = static_cast<std::size_t>(h.row_begin[d / bs]) * bs * bs + (d % bs) * (bs + 1);
+      stiffest = std::max(stiffest, std::abs(h.values[at]) / mass[d]);
+    }
+  stiffest = exchange.max(stiffest);
+  report.negative_eigenvalues = model->inertia().negative;
+  report.neutral_eigenvalues = model->inertia().null;
+  if (model->inertia().negative > 0) {
+    model->find_negative_directions();
+    const double zero = 1e-13 * stiffest;
+    for (double e : model->ritz_values())
+      if (e < 0 && e > -zero) {
+        --report.negative_eigenvalues;
+        ++report.neutral_eigenvalues;
+      }
+  }
+  return true;
+}
+
+/// The test that is met (a clause) ends the run, unless the point is a saddle that can be left. True if it ends.
+bool Minimizer::State::end(const std::string& test) {
+  if (!count_negative_eigenvalues()) {
+    stop(Status::failed, "The Hessian at the end point could not be evaluated: " + current.failure);
+    return true;
+  }
+  const int negative = report.negative_eigenvalues, neutral = report.neutral_eigenvalues;
+  if (negative > 0 && options.escape && escapes < most_escapes && report.iterations < options.max_iterations && escape_saddle()) {
+    ++escapes;
+    return false;
+  }
+  std::string kind = negative == 0 ? "a local minimum"
+                                   : fmt::format("not a local minimum: the Hessian has {} negative eigenvalue{}", negative, negative == 1 ? "" : "s");
+  if (neutral > 0) kind += fmt::format(" ({} eigenvalue{} zero to rounding)", neutral, neutral == 1 ? " is" : "s are");
+  stop(Status::converged, fmt::format("{}; the point is {}.", test, kind));
+  return true;
+}
+
+/// One factorisation's worth of work: trial steps until one is accepted. True if the run has ended.
+bool Minimizer::State::iterate() {
+  largest_gradient = std::max(largest_gradient, current.gradient_norm);
+  if (current.gradient_norm <= tolerance())
+    return end(
+        fmt::format("The gradient norm {:.3g} is at most {:.3g} (largest seen: {:.3g})", current.gradient_norm, tolerance(), largest_gradient));
+  if (!factor_at_current()) {
+    stop(Status::failed, "The Hessian could not be evaluated: " + current.failure);
+    return true;
+  }
+
+  for (;;) {
+    if (exchange.any(interrupt_requested)) {
+      stop(Status::interrupted, fmt::format("Interrupted; the gradient norm is {:.3g}, its threshold {:.3g}.", current.gradient_norm, tolerance()));
+      return true;
+    }
+    if (report.iterations >= options.max_iterations) {
+      stop(Status::not_converged, fmt::format("After {} iterations (the most that are allowed) the gradient norm is {:.3g}, its threshold {:.3g}.",
+                                              report.iterations, current.gradient_norm, tolerance()));
+      return true;
+    }
+    TrustRegionModel::Step step = model->step(radius, 1e-2);
+    const bool newton = step.multiplier == 0;
+    if (newton) step = model->step(radius, 1e-8);
+    exchange.update_ghosts(step.s);
+    const bool tiny = step.decrease <= 10 * current.noise;
+
+    Iterate x = moved(current.u, step.s);
+    const double first_energy = x.energy;
+    if (x.ok()) correct(x, step.multiplier, current.energy, std::max(radius, step.norm));
+    const double ratio = tiny ? 1.0 : (current.energy - x.energy) / step.decrease;
+    const bool accepted =
+        x.ok() && (tiny ? x.gradient_norm <= 0.5 * current.gradient_norm && x.energy <= current.energy + 10 * current.noise : ratio > 0.01);
+    ++report.iterations;
+
+    IterationRecord record{task.load_step,
+                           report.iterations,
+                           accepted ? x.energy : current.energy,
+                           accepted ? x.gradient_norm : current.gradient_norm,
+                           step.norm,
+                           radius,
+                           step.multiplier,
+                           ratio,
+                           accepted,
+                           seconds_since_start(),
+                           x.failure};
+    if (!accepted && tiny) {
+      tell(record);
+      return end(fmt::format("The energy cannot be reduced beyond rounding (a Newton step promises {:.2g}); the gradient norm is {:.3g}",
+                             step.decrease, current.gradient_norm));
+    }
+    if (accepted) {
+      if (ratio > 0.9 && step.norm > 0.9 * radius)
+        radius *= 2;
+      else if (ratio < 0.25)
+        radius = 0.5 * step.norm;
+      current = std::move(x);
+      tell(record);
+      if (newton && step.norm <= options.step_tolerance) {
+        largest_gradient = std::max(largest_gradient, current.gradient_norm);
+        return end(fmt::format("The Newton step {:.3g} is at most {:.3g}", step.norm, options.step_tolerance));
+      }
+      return false;
+    }
+    // Where along s the energy would be least if it were a parabola.
+    const double slope = exchange.dot(step.s, current.g), rise = first_energy - current.energy - slope;
+    const double least = std::isfinite(rise) && rise > 0 ? -0.5 * slope / rise : 0.25;
+    radius = std::clamp(least, 0.1, 0.5) * step.norm;
+    tell(record);
+    if (!(radius > 1e-14)) {
+      stop(Status::not_converged, fmt::format("No step reduces the energy, however short; the gradient norm is {:.3g}, its threshold {:.3g}.{}",
+                                              current.gradient_norm, tolerance(), x.failure.empty() ? "" : " " + x.failure));
+      return true;
+    }
+  }
+}
+
+Minimizer::Minimizer(Functional& functional, SolverOptions options) {
+  if (const auto wrong = options.validate(); !wrong.empty()) throw InputError(wrong.front());
+  state_ = std::make_unique<State>(functional, std::move(options));
+}
+
+Minimizer::~Minimizer() = default;
+
+StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer* const> observers) {
+  State& s = *state_;
+  const double begin = seconds_since_start();
+  s.task = task;
+  s.observers = observers;
+  s.work = {};
+  s.phases = {};
+  s.report = {};
+  s.report.load_step = task.load_step;
+  s.report.t = u.t;
+  s.largest_gradient = 0;
+  s.escapes = 0;
+  s.radius = s.options.initial_radius > 0 ? s.options.initial_radius : 1.0;
+  s.evaluator.set_proximal(u, s.options.method == "gradient-flow" ? task.time_step : 0.0);
+
+  s.current = {};
+  if (!task.boundary || !s.predict(u)) {
+    s.current.u = u;
+    s.evaluator.gradient(s.current);
+  }
+  if (!s.current.ok())
+    s.stop(Status::failed, "The energy of the initial configuration is not finite: " + s.current.failure);
+  else
+    while (!s.iterate()) {
+    }
+
+  u.values.swap(s.current.u.values);
+  s.current.u.values.clear();
+  s.report.energy = s.current.energy;
+  s.report.energies = s.current.terms;
+  s.report.gradient_norm = s.current.gradient_norm;
+  s.report.work = s.work;
+  s.report.phases = s.phases;
+  s.report.seconds = seconds_since_start() - begin;
+  return s.report;
+}
+
+StepReport minimize(Functional& functional, Configuration& u, const SolverOptions& options, std::span<Observer* const> observers, int load_step) {
+  Minimizer minimizer(functional, options);
+  Minimizer::Task task;
+  task.load_step = load_step;
+  return minimizer.run(u, task, observers);
+}
+
+}  // namespace karcher

@@ -1,0 +1,258 @@
+#include "solve/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "solve/stopwatch.hpp"
+
+namespace karcher {
+namespace {
+
+/// Entries in [-1, 1] that depend on the global number alone (splitmix64), so that they are the same on any number of ranks.
+double pseudo_random(std::uint64_t n) {
+  n += 0x9e3779b97f4a7c15ULL;
+  n = (n ^ (n >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  n = (n ^ (n >> 27)) * 0x94d049bb133111ebULL;
+  n ^= n >> 31;
+  return static_cast<double>(n >> 11) * 0x1.0p-52 - 1.0;
+}
+
+template <std::size_t size>
+void multiply_rows(const BlockMatrix& h, const double* x, double* y) {
+  const std::size_t bs = size ? size : static_cast<std::size_t>(h.block_size);
+  for (std::size_t i = 0; i + 1 < h.row_begin.size(); ++i) {
+    const double* xi = x + i * bs;
+    double* yi = y + i * bs;
+    for (int k = h.row_begin[i]; k < h.row_begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(h.column[static_cast<std::size_t>(k)]);
+      const double* block = h.values.data() + static_cast<std::size_t>(k) * bs * bs;
+      const double* xj = x + j * bs;
+      double* yj = y + j * bs;
+      for (std::size_t c = 0; c < bs; ++c) {
+        for (std::size_t r = 0; r < bs; ++r) yi[r] += block[c * bs + r] * xj[c];
+      }
+      if (i == j) continue;
+      for (std::size_t c = 0; c < bs; ++c) {
+        double sum = 0;
+        for (std::size_t r = 0; r < bs; ++r) sum += block[c * bs + r] * xi[r];
+        yj[c] += sum;
+      }
+    }
+  }
+}
+
+constexpr int longest_basis = 60;
+constexpr int expansions_before_refactoring = 20;
+constexpr int refactorisations = 3;
+
+}  // namespace
+
+void multiply(const Exchange& exchange, const BlockMatrix& h, std::span<const char> fixed, std::span<const double> x, std::span<double> y) {
+  std::vector<double> masked(x.begin(), x.end());
+  for (std::size_t d = 0; d < fixed.size(); ++d)
+    if (fixed[d]) masked[d] = 0;
+  std::fill(y.begin(), y.end(), 0.0);
+  switch (h.block_size) {
+    case 1:
+      multiply_rows<1>(h, masked.data(), y.data());
+      break;
+    case 2:
+      multiply_rows<2>(h, masked.data(), y.data());
+      break;
+    case 3:
+      multiply_rows<3>(h, masked.data(), y.data());
+      break;
+    case 6:
+      multiply_rows<6>(h, masked.data(), y.data());
+      break;
+    default:
+      multiply_rows<0>(h, masked.data(), y.data());
+  }
+  exchange.sum(y);
+  for (std::size_t d = 0; d < fixed.size(); ++d)
+    if (fixed[d]) y[d] = 0;
+}
+
+TrustRegionModel::TrustRegionModel(const Exchange& exchange, Ldlt& ldlt, const std::vector<char>& fixed, const std::vector<double>& mass,
+                                   WorkCounts& work, PhaseSeconds& phases)
+    : exchange_(exchange), ldlt_(ldlt), fixed_(fixed), mass_(mass), work_(work), phases_(phases) {}
+
+void TrustRegionModel::set(const BlockMatrix& h, std::span<const double> g, double shift) {
+  h_ = &h;
+  refactor(shift);
+  set_gradient(g);
+}
+
+void TrustRegionModel::set_gradient(std::span<const double> g) {
+  g_.assign(g.begin(), g.end());
+  basis_.clear();
+  h_basis_.clear();
+  projected_h_.clear();
+  projected_g_.clear();
+  eigen_ = {};
+  searched_ = false;
+  double square = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += g_[d] * g_[d] / mass_[d];
+  dual_norm_ = std::sqrt(exchange_.sum(square));
+}
+
+void TrustRegionModel::refactor(double shift) {
+  Stopwatch watch(phases_.factorisation);
+  ++work_.factorisations;
+  shift_ = shift;
+  inertia_ = ldlt_.factor(*h_, shift, mass_);
+}
+
+void TrustRegionModel::solve(std::span<const double> b, std::span<double> x) {
+  Stopwatch watch(phases_.solve);
+  ++work_.solves;
+  ldlt_.solve(b, x);
+}
+
+std::vector<double> TrustRegionModel::against_basis(std::span<const double> w) const {
+  std::vector<double> products(basis_.size());
+  const auto owned = static_cast<std::size_t>(exchange_.owned_dofs());
+  for (std::size_t i = 0; i < basis_.size(); ++i) {
+    double sum = 0;
+    for (std::size_t d = 0; d < owned; ++d) sum += basis_[i][d] * w[d];
+    products[i] = sum;
+  }
+  exchange_.sum_all(products);
+  return products;
+}
+
+bool TrustRegionModel::expand(std::vector<double> w) {
+  Stopwatch watch(phases_.solve);
+  const std::size_t n = w.size(), owned = static_cast<std::size_t>(exchange_.owned_dofs());
+  std::vector<double> mw(n);
+  const auto weigh = [&] {
+    double square = 0;
+    for (std::size_t d = 0; d < n; ++d) mw[d] = mass_[d] * w[d];
+    for (std::size_t d = 0; d < owned; ++d) square += mw[d] * w[d];
+    return std::sqrt(exchange_.sum(square));
+  };
+  const double before = weigh();
+  if (!(before > 0) || !std::isfinite(before)) return false;
+  for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan, Parlett)
+    const std::vector<double> products = against_basis(mw);
+    for (std::size_t i = 0; i < basis_.size(); ++i)
+      for (std::size_t d = 0; d < n; ++d) w[d] -= products[i] * basis_[i][d];
+    if (weigh() < 1e-11 * before) return false;
+  }
+  const double size = weigh();
+  for (double& x : w) x /= size;
+  std::vector<double> hw(n);
+  multiply(exchange_, *h_, fixed_, w, hw);
+  basis_.push_back(std::move(w));
+  h_basis_.push_back(std::move(hw));
+  const std::vector<double> column = against_basis(h_basis_.back());
+  projected_h_.insert(projected_h_.end(), column.begin(), column.end());
+  projected_g_.push_back(exchange_.dot(basis_.back(), g_));
+
+  const std::size_t m = basis_.size();
+  std::vector<double> matrix(m * m);
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = 0; i <= j; ++i) matrix[j * m + i] = projected_h_[j * (j + 1) / 2 + i];
+  eigen_ = symmetric_eigen(static_cast<int>(m), std::move(matrix));
+  return true;
+}
+
+std::vector<double> TrustRegionModel::combine(const std::vector<std::vector<double>>& vectors, std::span<const double> y) const {
+  std::vector<double> result(g_.size(), 0.0);
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    for (std::size_t d = 0; d < result.size(); ++d) result[d] += y[i] * vectors[i][d];
+  return result;
+}
+
+TrustRegionModel::Step TrustRegionModel::step(double radius, double accuracy) {
+  std::vector<double> w(g_.size()), r(g_.size());
+  if (basis_.empty()) {
+    if (dual_norm_ > 0) {
+      solve(g_, w);
+      expand(w);
+    }
+    if (basis_.empty()) find_negative_directions();
+  }
+  DenseStep best;
+  int expansions = 0, refactored = 0;
+  for (double last = 0;;) {
+    best = minimise_in_ball(eigen_, projected_g_, radius);
+    if (basis_.empty() || static_cast<int>(basis_.size()) >= longest_basis) break;
+    if (expansions > 0 && best.decrease - last <= accuracy * best.decrease) {
+      if (searched_ || negative_in_basis() >= inertia_.negative) break;
+      find_negative_directions();
+      best = minimise_in_ball(eigen_, projected_g_, radius);
+    }
+    last = best.decrease;
+    const std::vector<double> s = combine(basis_, best.y), hs = combine(h_basis_, best.y);
+    double square = 0;
+    for (std::size_t d = 0; d < r.size(); ++d) r[d] = g_[d] + hs[d] + best.multiplier * mass_[d] * s[d];
+    for (std::size_t d = 0; d < r.size(); ++d)
+      if (fixed_[d]) r[d] = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += r[d] * r[d] / mass_[d];
+    if (std::sqrt(exchange_.sum(square)) <= 1e-10 * dual_norm_) break;
+    if (expansions == expansions_before_refactoring && refactored < refactorisations) {
+      refactor(best.multiplier);
+      ++refactored;
+      expansions = 0;
+    }
+    solve(r, w);
+    if (!expand(w)) break;
+    ++expansions;
+  }
+  Step result;
+  result.s = combine(basis_, best.y);
+  result.multiplier = best.multiplier;
+  result.decrease = best.decrease;
+  double square = 0;
+  for (double y : best.y) square += y * y;
+  result.norm = std::sqrt(square);
+  return result;
+}
+
+int TrustRegionModel::negative_in_basis() const {
+  return static_cast<int>(std::count_if(eigen_.values.begin(), eigen_.values.end(), [&](double e) { return e + shift_ < 0; }));
+}
+
+void TrustRegionModel::find_negative_directions() {
+  searched_ = true;
+  if (negative_in_basis() >= inertia_.negative) return;
+  std::vector<double> w(g_.size()), mv(g_.size());
+  const std::size_t first = static_cast<std::size_t>(exchange_.block_size());
+  for (std::size_t d = 0; d < w.size(); ++d) {
+    const auto global = static_cast<std::uint64_t>(exchange_.local_to_global()[d / first]) * first + d % first;
+    mv[d] = fixed_[d] ? 0 : mass_[d] * pseudo_random(global);
+  }
+  const int limit = std::min(6 + 2 * inertia_.negative, 20);
+  for (int k = 0; k < limit && static_cast<int>(basis_.size()) < longest_basis; ++k) {
+    solve(mv, w);
+    if (!expand(w) || negative_in_basis() >= inertia_.negative) return;
+    for (std::size_t d = 0; d < w.size(); ++d) mv[d] = mass_[d] * basis_.back()[d];
+  }
+}
+
+std::vector<double> TrustRegionModel::lowest_direction() const {
+  if (basis_.empty()) return std::vector<double>(g_.size(), 0.0);
+  return combine(basis_, std::span(eigen_.vectors).first(basis_.size()));
+}
+
+void TrustRegionModel::precondition(std::span<const double> r, double lambda, std::span<double> result) {
+  solve(r, result);
+  if (lambda == shift_ || basis_.empty()) return;
+  std::vector<double> weighted(result.begin(), result.end());
+  for (std::size_t d = 0; d < weighted.size(); ++d) weighted[d] *= mass_[d];
+  const std::vector<double> products = against_basis(weighted);
+  const std::size_t m = basis_.size();
+  std::vector<double> change(m, 0.0);
+  for (std::size_t k = 0; k < m; ++k) {
+    const double here = eigen_.values[k] + shift_, there = std::max(eigen_.values[k] + lambda, 1e-3 * std::abs(lambda - shift_));
+    double component = 0;
+    for (std::size_t i = 0; i < m; ++i) component += eigen_.vectors[k * m + i] * products[i];
+    for (std::size_t i = 0; i < m; ++i) change[i] += eigen_.vectors[k * m + i] * component * (here / there - 1);
+  }
+  const std::vector<double> correction = combine(basis_, change);
+  for (std::size_t d = 0; d < correction.size(); ++d) result[d] += correction[d];
+}
+
+}  // namespace karcher

@@ -91,7 +91,7 @@ void TrustRegionModel::set_gradient(std::span<const double> g) {
   projected_h_.clear();
   projected_g_.clear();
   eigen_ = {};
-  searched_ = false;
+  searched_ = has_steepest_ = false;
   double square = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += g_[d] * g_[d] / mass_[d];
   dual_norm_ = std::sqrt(exchange_.sum(square));
@@ -175,27 +175,38 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, double accuracy) {
     if (basis_.empty()) find_negative_directions();
   }
   DenseStep best;
-  int expansions = 0, refactored = 0;
-  for (double last = 0;;) {
+  int expansions = 0, refactored = 0, small_gains = 0;
+  for (double last = 0;; last = best.decrease) {
     best = minimise_in_ball(eigen_, projected_g_, radius);
     if (basis_.empty() || static_cast<int>(basis_.size()) >= longest_basis) break;
-    if (expansions > 0 && best.decrease - last <= accuracy * best.decrease) {
-      if (searched_ || negative_in_basis() >= inertia_.negative) break;
-      find_negative_directions();
-      best = minimise_in_ball(eigen_, projected_g_, radius);
+    if (best.multiplier > 0 && !has_steepest_) {  // at least Cauchy's decrease
+      has_steepest_ = true;
+      for (std::size_t d = 0; d < w.size(); ++d) w[d] = g_[d] / mass_[d];
+      if (expand(w)) continue;
     }
-    last = best.decrease;
     const std::vector<double> s = combine(basis_, best.y), hs = combine(h_basis_, best.y);
     double square = 0;
-    for (std::size_t d = 0; d < r.size(); ++d) r[d] = g_[d] + hs[d] + best.multiplier * mass_[d] * s[d];
-    for (std::size_t d = 0; d < r.size(); ++d)
-      if (fixed_[d]) r[d] = 0;
+    for (std::size_t d = 0; d < r.size(); ++d) r[d] = fixed_[d] ? 0 : g_[d] + hs[d] + best.multiplier * mass_[d] * s[d];
     for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += r[d] * r[d] / mass_[d];
-    if (std::sqrt(exchange_.sum(square)) <= 1e-10 * dual_norm_) break;
-    if (expansions == expansions_before_refactoring && refactored < refactorisations) {
-      refactor(best.multiplier);
+    const double residual = std::sqrt(exchange_.sum(square));
+    small_gains = expansions > 0 && best.decrease - last <= accuracy * best.decrease ? small_gains + 1 : 0;
+
+    const bool all_negative = negative_in_basis() >= inertia_.negative;
+    if (residual <= 1e-10 * dual_norm_ && all_negative) break;
+    const bool stuck = small_gains >= 2 || residual <= 1e-10 * dual_norm_;
+    if (stuck && all_negative && residual <= 0.1 * dual_norm_) break;
+    if (stuck && !all_negative && !searched_) {
+      find_negative_directions();
+      small_gains = 0;
+      continue;
+    }
+    if (stuck || expansions == expansions_before_refactoring) {
+      if (refactored == refactorisations) break;
+      // At lambda the expansion converges fast. Directions of negative curvature that are missing still appear once the shift is below all eigenvalues.
+      refactor(all_negative ? best.multiplier : std::max({10 * shift_, 2 * best.multiplier, -2 * eigen_.values.front(), dual_norm_ / radius}));
       ++refactored;
-      expansions = 0;
+      expansions = small_gains = 0;
+      if (!all_negative) find_negative_directions();
     }
     solve(r, w);
     if (!expand(w)) break;

@@ -76,6 +76,7 @@ class TrustRegionModel {
   std::vector<std::vector<double>> basis_, h_basis_;
   std::vector<double> projected_h_, projected_g_;  // V^T H V in packed growing storage: entry (i, j), i <= j at j (j + 1) / 2 + i
   Eigen eigen_;
+  bool has_steepest_ = false;
   bool searched_ = false;  ///< for negative directions that g does not lead to
 };
 

@@ -1,0 +1,145 @@
+#include "solve/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "solve/distributed.hpp"
+#include "solve/random_matrix.hpp"
+
+namespace karcher {
+namespace {
+
+using testing::Distributed;
+using testing::matrix_with;
+using testing::random_vector;
+
+/// A model of n unknowns with eigenvalues of M^-1/2 H M^-1/2 as given, and its dense reference.
+struct Problem {
+  std::vector<double> mass, scaled, scaled_gradient, gradient;
+  std::unique_ptr<Distributed> d;
+  std::vector<char> fixed;
+  std::vector<double> local_mass;
+  std::unique_ptr<Ldlt> ldlt;
+  WorkCounts work;
+  PhaseSeconds phases;
+  std::unique_ptr<TrustRegionModel> model;
+
+  /// missing: index of an eigenvector to which the gradient is orthogonal, -1: none
+  Problem(const std::vector<double>& eigenvalues, unsigned seed, int missing = -1) {
+    const std::size_t n = eigenvalues.size();
+    std::vector<double> q;
+    scaled = matrix_with(eigenvalues, seed, &q);
+    scaled_gradient = random_vector(static_cast<int>(n), seed + 1000);
+    if (missing >= 0) {
+      const double* x = q.data() + static_cast<std::size_t>(missing) * n;
+      const double component = std::inner_product(x, x + n, scaled_gradient.begin(), 0.0);
+      for (std::size_t i = 0; i < n; ++i) scaled_gradient[i] -= component * x[i];
+    }
+    std::vector<double> h(n * n);
+    for (std::size_t i = 0; i < n; ++i) mass.push_back(0.01 + 0.1 * static_cast<double>(i % 5));
+    for (std::size_t i = 0; i < n; ++i) {
+      gradient.push_back(std::sqrt(mass[i]) * scaled_gradient[i]);
+      for (std::size_t j = 0; j < n; ++j) h[i * n + j] = std::sqrt(mass[i] * mass[j]) * scaled[i * n + j];
+    }
+    d = std::make_unique<Distributed>(2, h, static_cast<int>(n));
+    fixed.assign(n, 0);
+    local_mass = d->local(mass);
+    ldlt = std::make_unique<Ldlt>(d->exchange, d->matrix, fixed);
+    model = std::make_unique<TrustRegionModel>(d->exchange, *ldlt, fixed, local_mass, work, phases);
+    model->set(d->matrix, d->local(gradient), 0);
+  }
+  DenseStep reference(double radius) const {
+    return minimise_in_ball(symmetric_eigen(static_cast<int>(mass.size()), scaled), scaled_gradient, radius);
+  }
+};
+
+std::vector<double> spread(int n, double low, double high) {
+  std::vector<double> values;
+  for (int k = 0; k < n; ++k) values.push_back(low * std::pow(high / low, k / (n - 1.0)));
+  return values;
+}
+
+TEST(TrustRegionModel, TakesTheNewtonStepWithOneFactorisationWhereItIsInside) {
+  Problem p(spread(60, 1e-3, 1e6), 1);
+  const auto step = p.model->step(1e9, 1e-8);
+  EXPECT_EQ(step.multiplier, 0);
+  EXPECT_NEAR(step.decrease, p.reference(1e9).decrease, 1e-7 * step.decrease);
+  EXPECT_EQ(p.work.factorisations, 1);
+  EXPECT_LE(p.work.solves, 3);
+}
+
+TEST(TrustRegionModel, AgreesWithTheDenseSolutionForAnyRadius) {
+  for (double lowest : {-1.0, 1e-4}) {
+    auto eigenvalues = spread(80, 1e-4, 1e6);
+    eigenvalues[0] = lowest;
+    eigenvalues[1] = 3 * lowest;
+    Problem p(eigenvalues, 2);
+    for (double radius : {1e3, 10.0, 1.0, 1e-2, 1e-4, 1e-6}) {
+      const auto step = p.model->step(radius, 1e-6);
+      const DenseStep exact = p.reference(radius);
+      EXPECT_NEAR(step.norm, std::min(radius, step.norm), 1e-9 * radius);
+      EXPECT_NEAR(step.decrease, exact.decrease, 1e-2 * exact.decrease) << "radius " << radius << ", lowest eigenvalue " << lowest;
+      EXPECT_LE(step.decrease, exact.decrease * (1 + 1e-9));
+    }
+    EXPECT_LE(p.work.factorisations, 8);
+  }
+}
+
+TEST(TrustRegionModel, ModelDecreaseIsThatOfTheReturnedStep) {
+  auto eigenvalues = spread(50, 1e-2, 1e4);
+  eigenvalues[0] = -0.3;
+  Problem p(eigenvalues, 3);
+  auto step = p.model->step(0.7, 1e-2);
+  p.d->exchange.update_ghosts(step.s);
+  std::vector<double> hs(step.s.size());
+  multiply(p.d->exchange, p.d->matrix, {}, step.s, hs);
+  const auto g = p.d->local(p.gradient);
+  EXPECT_NEAR(-p.d->exchange.dot(g, step.s) - 0.5 * p.d->exchange.dot(hs, step.s), step.decrease, 1e-10 * step.decrease);
+  double square = 0;
+  const auto s = p.d->global(step.s);
+  for (std::size_t i = 0; i < s.size(); ++i) square += p.mass[i] * s[i] * s[i];
+  EXPECT_NEAR(std::sqrt(square), step.norm, 1e-12);
+}
+
+TEST(TrustRegionModel, FindsNegativeCurvatureThatTheGradientDoesNotSee) {
+  auto eigenvalues = spread(60, 1e-2, 1e4);
+  eigenvalues[5] = -2;
+  Problem p(eigenvalues, 4, 5);
+  EXPECT_EQ(p.model->inertia().negative, 1);
+  const auto step = p.model->step(3.0, 1e-4);
+  EXPECT_EQ(p.model->negative_in_basis(), 1);
+  EXPECT_NEAR(step.multiplier, 2, 1e-4);
+  const DenseStep exact = p.reference(3.0);
+  EXPECT_NEAR(step.decrease, exact.decrease, 1e-4 * exact.decrease);
+}
+
+TEST(TrustRegionModel, NeedsNoFactorisationForAnotherRadius) {
+  auto eigenvalues = spread(60, 1e-3, 1e3);
+  eigenvalues[0] = -0.1;
+  Problem p(eigenvalues, 6);
+  p.model->step(2.0, 1e-3);
+  const auto before = p.work;
+  const auto step = p.model->step(1.0, 1e-3);
+  EXPECT_EQ(p.work.factorisations, before.factorisations);
+  EXPECT_LE(p.work.solves - before.solves, 3);
+  EXPECT_NEAR(step.decrease, p.reference(1.0).decrease, 2e-3 * step.decrease);
+}
+
+TEST(TrustRegionModel, PreconditionsWithTheShiftedMatrixWhereTheBasisKnowsIt) {
+  auto eigenvalues = spread(40, 1.0, 1e6);
+  eigenvalues[0] = -1;
+  Problem p(eigenvalues, 8);
+  const auto step = p.model->step(0.5, 1e-6);
+  std::vector<double> c(step.s.size());
+  p.model->precondition(p.d->local(p.gradient), step.multiplier, c);
+  double square = 0, scale = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    square += p.local_mass[i] * (c[i] + step.s[i]) * (c[i] + step.s[i]);
+    scale += p.local_mass[i] * step.s[i] * step.s[i];
+  }
+  EXPECT_LT(std::sqrt(square / scale), 0.05);
+}
+
+}  // namespace
+}  // namespace karcher

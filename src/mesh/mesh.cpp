@@ -1,5 +1,7 @@
 #include "karcher/mesh/mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "karcher/error.hpp"
@@ -30,12 +32,10 @@ Cell trace(const Part& part) {
   return entity;
 }
 
-/// Identity of an entity by its vertices alone.
-NodeKey entity_key(const Part& part) {
-  NodeKey key;
-  for (std::size_t v = 0; v < part.vertices.size(); ++v) key.vertices[v] = part.cell.nodes[at(part.vertices[v])];
-  std::sort(key.vertices.begin(), key.vertices.begin() + static_cast<std::ptrdiff_t>(part.vertices.size()));
-  return key;
+NodeKey part_key(const Part& part) {
+  std::array<int, 8> vertices{};
+  for (std::size_t v = 0; v < part.vertices.size(); ++v) vertices[v] = part.cell.nodes[at(part.vertices[v])];
+  return entity_key(std::span<const int>(vertices).first(part.vertices.size()));
 }
 
 /// The distinct ones among the parts that `visit` passes on, in the order of their first appearance, and how often each appeared.
@@ -48,7 +48,7 @@ Distinct distinct(std::size_t expected, Visit visit) {
   Distinct result;
   NodeNumbering numbering(expected);
   visit([&](const Part& part) {
-    const auto found = numbering.insert(entity_key(part));
+    const auto found = numbering.insert(part_key(part));
     if (found.inserted) {
       result.entities.push_back(trace(part));
       result.times.push_back(0);
@@ -139,19 +139,18 @@ Region select(const Mesh& mesh, const std::string& region_name, int dim, bool bo
 void check_identity(const Mesh& mesh) {
   const auto place = [&](int node) {
     const Vec3<double>& x = mesh.nodes[at(node)];
-    return "(" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " + std::to_string(x[2]) + ")";
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
   };
   NodeNumbering cells(mesh.cells.size()), edge_numbers(mesh.cells.size());
   std::vector<std::vector<int>> interiors;  // of the edges, ascending
   for (const Cell& c : mesh.cells) {
-    std::vector<int> vertices(c.nodes.begin(), c.nodes.begin() + vertex_count(c.kind));
-    std::sort(vertices.begin(), vertices.end());
-    const auto twice = std::adjacent_find(vertices.begin(), vertices.end());
-    if (twice != vertices.end())
+    const std::span<const int> vertices(c.nodes.data(), at(vertex_count(c.kind)));
+    const NodeKey key = entity_key(vertices);
+    const auto end = key.vertices.begin() + vertex_count(c.kind);
+    const auto twice = std::adjacent_find(key.vertices.begin(), end);
+    if (twice != end)
       throw InputError("A " + std::string(name(c.kind)) + " of the mesh has the vertex at " + place(*twice) +
                        " twice; a periodic mesh needs at least three cells around.");
-    NodeKey key;
-    std::copy(vertices.begin(), vertices.end(), key.vertices.begin());
     if (!cells.insert(key).inserted)
       throw InputError("Two cells of the mesh have the same vertices, one of them at " + place(vertices.front()) +
                        "; a cell may occur only once, and a periodic mesh needs at least three cells around.");
@@ -159,9 +158,8 @@ void check_identity(const Mesh& mesh) {
     const auto interior = at(c.order - 1);
     std::size_t node = vertices.size();
     for (const auto& e : edges(c.kind)) {
-      NodeKey edge;
-      edge.vertices[0] = std::min(c.nodes[at(e[0])], c.nodes[at(e[1])]);
-      edge.vertices[1] = std::max(c.nodes[at(e[0])], c.nodes[at(e[1])]);
+      const std::array<int, 2> ends = {c.nodes[at(e[0])], c.nodes[at(e[1])]};
+      NodeKey edge = entity_key(ends);
       edge.place[0] = c.order;
       std::vector<int> own(c.nodes.begin() + static_cast<std::ptrdiff_t>(node), c.nodes.begin() + static_cast<std::ptrdiff_t>(node + interior));
       std::sort(own.begin(), own.end());

@@ -58,9 +58,7 @@ NodeKey cube_key(CellKind kind, std::span<const int> vertices, const LatticePoin
     axis[a] = {vertices[end], corner[origin][a] == 0 ? point[a] : q - point[a]};
   }
   std::sort(axis.begin(), axis.begin() + static_cast<std::ptrdiff_t>(dim), [](const Axis& a, const Axis& b) { return a.end < b.end; });
-  NodeKey key;
-  std::copy(vertices.begin(), vertices.end(), key.vertices.begin());
-  std::sort(key.vertices.begin(), key.vertices.begin() + static_cast<std::ptrdiff_t>(vertices.size()));
+  NodeKey key = entity_key(vertices);
   for (std::size_t a = 0; a < dim; ++a) key.place[a] = axis[a].distance * (NodeKey::denominator / q);
   return key;
 }
@@ -93,6 +91,16 @@ std::vector<NodeKey> lattice_keys(const Cell& cell, int q) {
     }
   }
   return keys;
+}
+
+NodeKey entity_key(std::span<const int> vertices) {
+  NodeKey key;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {  // insertion sort
+    std::size_t at = v;
+    for (; at > 0 && key.vertices[at - 1] > vertices[v]; --at) key.vertices[at] = key.vertices[at - 1];
+    key.vertices[at] = vertices[v];
+  }
+  return key;
 }
 
 NodeNumbering::NodeNumbering(std::size_t expected) {

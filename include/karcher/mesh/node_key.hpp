@@ -28,6 +28,9 @@ struct NodeKey {
 /// Keys of all points of the lattice of order q on a cell, in the order of lagrange_nodes (q = 1, 2, 3; also 4, 6 with face and cell interiors x fastest).
 std::vector<NodeKey> lattice_keys(const Cell& cell, int q);
 
+/// Identity of a whole entity by its vertices (at most 8); its place is zero.
+NodeKey entity_key(std::span<const int> vertices);
+
 /// Gives every new key the next number. Open addressing with linear probing; no erasing.
 class NodeNumbering {
  public:

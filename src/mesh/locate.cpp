@@ -1,0 +1,196 @@
+#include "karcher/mesh/locate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "karcher/error.hpp"
+#include "mesh/elevate.hpp"
+#include "mesh/lattice.hpp"
+
+namespace karcher {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool inside(CellKind kind, const Vec3<double>& xi, double slack) {
+  const bool simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
+  double sum = 0;
+  for (int i = 0; i < dimension(kind); ++i) {
+    if (xi[i] < -slack || (!simplex && xi[i] > 1 + slack)) return false;
+    sum += xi[i];
+  }
+  return !simplex || sum <= 1 + slack;
+}
+
+/// Moves a point that rounding left just outside back to the reference cell.
+Vec3<double> clamped(CellKind kind, Vec3<double> xi) {
+  const bool simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
+  double sum = 0;
+  for (int i = 0; i < dimension(kind); ++i) {
+    xi[i] = std::clamp(xi[i], 0.0, 1.0);
+    sum += xi[i];
+  }
+  if (simplex && sum > 1)
+    for (int i = 0; i < dimension(kind); ++i) xi[i] /= sum;
+  return xi;
+}
+
+/// Solves a symmetric positive definite system of size n <= 3 (Cholesky); false if it is not one.
+bool solve(Mat3<double> a, Vec3<double>& b, int n) {
+  for (int j = 0; j < n; ++j) {
+    for (int k = 0; k < j; ++k) a(j, j) -= a(j, k) * a(j, k);
+    if (!(a(j, j) > 0)) return false;
+    a(j, j) = std::sqrt(a(j, j));
+    for (int i = j + 1; i < n; ++i) {
+      for (int k = 0; k < j; ++k) a(i, j) -= a(i, k) * a(j, k);
+      a(i, j) /= a(j, j);
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < i; ++k) b[i] -= a(i, k) * b[k];
+    b[i] /= a(i, i);
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int k = i + 1; k < n; ++k) b[i] -= a(k, i) * b[k];
+    b[i] /= a(i, i);
+  }
+  return true;
+}
+
+/// A face of a cell as an affine subset of its reference cell: corners in the cell's reference coordinates.
+struct Part {
+  CellKind kind;
+  std::vector<Vec3<double>> corners;
+};
+
+/// The nearest point of a cell: stationary points of the squared distance inside the cell and inside each of its faces, edges and vertices.
+class NearestInCell {
+ public:
+  NearestInCell(const Mesh& mesh, const Cell& cell, const Vec3<double>& point) : mesh_(mesh), cell_(cell), point_(point) {
+    std::vector<Vec3<double>> all;
+    for (const LatticePoint& c : corners(cell.kind))
+      all.push_back({{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])}});
+    search({cell.kind, all});
+  }
+  double distance2() const { return best_; }
+  const Vec3<double>& xi() const { return xi_; }
+
+ private:
+  void offer(const Vec3<double>& xi) {
+    const double d = norm2(geometry(mesh_, cell_, xi).x - point_);
+    if (d < best_) {
+      best_ = d;
+      xi_ = xi;
+    }
+  }
+
+  /// Gauss-Newton from the middle of the part, damped by a trial of the distance; if it leaves the part, the part's own facets are searched.
+  void search(const Part& part) {
+    if (part.kind == CellKind::vertex) return offer(part.corners[0]);
+    const int dim = dimension(part.kind);
+    Vec3<double> s;
+    for (int i = 0; i < dim; ++i) s[i] = reference_measure(part.kind) < 1 ? 1.0 / (dim + 1) : 0.5;
+    const auto in_cell = [&](const Vec3<double>& local) { return combine(vertex_functions(part.kind, local), part.corners); };
+    bool stationary = false;
+    for (int iteration = 0; iteration < 50 && !stationary; ++iteration) {
+      const GeometryJet g = geometry(mesh_, cell_, in_cell(s));
+      const Vec3<double> residual = g.x - point_;
+      std::array<Vec3<double>, 3> tangent;
+      for (int a = 0; a < dim; ++a) {
+        const Vec3<double> direction = direction_of(part, a);
+        for (int i = 0; i < 3; ++i) tangent[at(a)] += direction[i] * g.d[at(i)];
+      }
+      Mat3<double> normal;
+      Vec3<double> step;
+      for (int a = 0; a < dim; ++a) {
+        step[a] = -dot(tangent[at(a)], residual);
+        for (int b = 0; b < dim; ++b) normal(a, b) = dot(tangent[at(a)], tangent[at(b)]);
+      }
+      if (!solve(normal, step, dim)) break;
+      stationary = norm2(step) < 1e-26;
+      double length = 1;
+      while (length > 1e-3 && norm2(geometry(mesh_, cell_, in_cell(s + length * step)).x - point_) > norm2(residual) * (1 + 1e-12)) length /= 2;
+      s += length * step;
+      if (norm2(s) > 100) break;
+    }
+    if (stationary && inside(part.kind, s, 1e-9)) return offer(in_cell(clamped(part.kind, s)));
+    for (const ReferenceFace& facet : facets(part.kind)) {
+      Part sub{facet.kind, {}};
+      for (int v : facet.vertices) sub.corners.push_back(part.corners[at(v)]);
+      search(sub);
+    }
+  }
+
+  /// Derivative of the place in the cell by the part's coordinate a; parts are affine images of their reference cells.
+  static Vec3<double> direction_of(const Part& part, int a) {
+    const bool cube = part.kind == CellKind::quadrilateral || part.kind == CellKind::hexahedron;
+    const int end = a == 0 ? 1 : a == 1 ? (cube ? 3 : 2) : (cube ? 4 : 3);
+    return part.corners[at(end)] - part.corners[0];
+  }
+
+  const Mesh& mesh_;
+  const Cell& cell_;
+  Vec3<double> point_, xi_;
+  double best_ = std::numeric_limits<double>::infinity();
+};
+
+/// A ball around the cell's nodes, enlarged for curved cells, whose geometry may leave the hull of its nodes.
+struct Ball {
+  Vec3<double> centre;
+  double radius = 0;
+};
+Ball ball(const Mesh& mesh, const Cell& cell) {
+  Ball b;
+  for (int n : cell.nodes) b.centre += (1.0 / static_cast<double>(cell.nodes.size())) * mesh.nodes[at(n)];
+  for (int n : cell.nodes) b.radius = std::max(b.radius, std::sqrt(norm2(mesh.nodes[at(n)] - b.centre)));
+  if (cell.order > 1) b.radius *= 1.5;
+  return b;
+}
+
+double diameter(const Mesh& mesh, const Cell& cell) {
+  double d = 0;
+  for (int i = 0; i < vertex_count(cell.kind); ++i)
+    for (int j = 0; j < i; ++j) d = std::max(d, std::sqrt(norm2(mesh.nodes[at(cell.nodes[at(i)])] - mesh.nodes[at(cell.nodes[at(j)])])));
+  return d;
+}
+
+}  // namespace
+
+Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& point) {
+  std::vector<double> bound;  // no point of the cell is nearer
+  bound.reserve(region.cells.size());
+  for (const Cell& c : region.cells) {
+    const Ball b = ball(mesh, c);
+    bound.push_back(std::sqrt(norm2(b.centre - point)) - b.radius);
+  }
+  std::vector<int> order(region.cells.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return std::pair(bound[at(a)], a) < std::pair(bound[at(b)], b); });
+  Location best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (int c : order) {
+    if (bound[at(c)] > best.distance + 1e-12 * best.cell_diameter) break;
+    const Cell& cell = region.cells[at(c)];
+    const NearestInCell found(mesh, cell, point);
+    const double distance = std::sqrt(found.distance2()), tie = 1e-12 * diameter(mesh, cell);
+    if (distance < best.distance - tie || (distance < best.distance + tie && c < best.cell)) best = {c, found.xi(), distance, diameter(mesh, cell)};
+  }
+  return best;
+}
+
+Location locate(const Mesh& mesh, const Region& region, const Vec3<double>& point, double tolerance) {
+  if (region.cells.empty()) throw InputError("The region \"" + region.name + "\" is empty, no point lies in it.");
+  const auto text = [](const Vec3<double>& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); };
+  const Location found = nearest(mesh, region, point);
+  const double scale = found.cell_diameter > 0 ? found.cell_diameter : 1e-6;
+  if (found.distance <= tolerance * scale) return found;
+  const Vec3<double> x = geometry(mesh, region.cells[at(found.cell)], found.xi).x;
+  throw InputError(fmt::format("The point {} lies outside the region \"{}\": the nearest place is {}, at a distance of {:.3g}.", text(point),
+                               region.name, text(x), found.distance));
+}
+
+}  // namespace karcher

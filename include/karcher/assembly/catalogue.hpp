@@ -31,7 +31,7 @@ struct TermInput {
 };
 
 const std::vector<EnergyInfo>& energy_catalogue();
-/// Loads ("volume-load", "traction-load", ...) have the same description. FieldSlot "field"; parameters "value[0]".. as many as ambient coordinates.
+/// Loads have the same description; info.type is the `type` of the problem file ("volume"), the term's type has "-load" after it ("volume-load").
 const std::vector<EnergyInfo>& load_catalogue();
 /// \throws InputError with a full sentence if the combination makes no sense (manifold, dimension, thickness against curvature, non-finite data).
 std::unique_ptr<Term> make_term(const std::string& type, TermInput input);

@@ -32,7 +32,8 @@ struct Parameter {
   std::optional<double> default_value;  ///< none: must be given
   double minimum = -std::numeric_limits<double>::infinity();
   bool minimum_allowed = true;  ///< false: must be greater than minimum
-  int size = 1;
+  int size = 1;                 ///< Parameter::ambient: as many as the first field has ambient coordinates
+  static constexpr int ambient = -1;
 };
 
 /// A field that an energy uses, under the key of the problem file ("deformation", "rotation", "field", ...).

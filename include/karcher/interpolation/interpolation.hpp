@@ -14,7 +14,7 @@
 #include <concepts>
 
 #include "karcher/manifold/manifold.hpp"
-#include "karcher/math/dual.hpp"
+#include "karcher/math/scalar.hpp"
 
 namespace karcher {
 
@@ -31,14 +31,11 @@ struct FieldJet {
 template <class M, int D>
 inline constexpr int local_dim = (1 + D) * M::dim;
 
-template <class T>
-using MaskOf = decltype(T{} < T{});
-
 /// The weights of the nodes at a point: Lagrange basis values and derivatives in the D directions.
 template <int D, class T>
 struct Weights {
   int count = 0;
-  const double* l = nullptr;                                  ///< [node]
+  const double* l = nullptr;                                       ///< [node]
   const std::array<T, static_cast<std::size_t>(D)>* dl = nullptr;  ///< [node][direction]
 };
 

@@ -121,9 +121,9 @@ class SphereProjection {
   Weights<D, T> weights_;
   FieldJet<M, D, T> jet_;
   Mat<T, N, k> frame_;
-  T r_{};                              // 1 / |X|
-  std::array<T, D> s_{};                // q . X_a / |X|
-  std::array<Vec<T, k>, D> y_{};        // local coordinates k_a of the derivatives
+  T r_{};                         // 1 / |X|
+  std::array<T, D> s_{};          // q . X_a / |X|
+  std::array<Vec<T, k>, D> y_{};  // local coordinates k_a of the derivatives
   std::vector<Mat<T, k, k>> B_;
   std::vector<Vec<T, k>> b_, p_;
   std::array<std::vector<Vec<T, k>>, D> q_;

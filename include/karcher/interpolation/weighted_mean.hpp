@@ -18,13 +18,42 @@
 
 namespace karcher {
 
-struct LogFunction {
+/// Two-point functions. `is_geodesic` says whether the mean is the Riemannian one. `Around<M, S, T>` is the moved point q(w) = exp_q(E w) over a scalar S with
+/// derivatives; theta(p) and theta(p, e, v) are theta(q(w), p) and theta(q(w), exp_p(e v)) in a frame at q(w). Any smooth frame field will do, since every use is of
+/// the equation sum l_i theta_i = 0 or of its derivatives: here the fixed frame E. Only derivatives at w = 0, v = 0 up to the third order in w and the second in v are
+/// read.
+template <class TwoPoint>
+struct ByExponential {
+  template <class M, class S, class T>
+  class Around {
+   public:
+    Around(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<S, M::dim>& w)
+        : q0_(cast<S>(q)), e_(e), q_(M::exp(q0_, cast<S>(e) * w)) {}
+    Vec<S, M::dim> theta(const Point<M, T>& p) const { return in_frame(TwoPoint::template at<M>(q_, cast<S>(p))); }
+    Vec<S, M::dim> theta(const Point<M, T>& p, const Mat<T, M::ambient, M::dim>& e, const Vec<S, M::dim>& v) const {
+      return in_frame(TwoPoint::template at<M>(q_, M::exp(cast<S>(p), cast<S>(e) * v)));
+    }
+
+   private:
+    Vec<S, M::dim> in_frame(const Vec<S, M::ambient>& a) const {
+      Vec<S, M::dim> c;
+      for (int i = 0; i < M::dim; ++i) c[i] = M::inner(q0_, cast<S>(column(e_, i)), a);
+      return c;
+    }
+    Point<M, S> q0_;
+    Mat<T, M::ambient, M::dim> e_;
+    Point<M, S> q_;
+  };
+};
+struct LogFunction : ByExponential<LogFunction> {
+  static constexpr bool is_geodesic = true;
   template <class M, class T>
   static Vec<T, M::ambient> at(const Point<M, T>& q, const Point<M, T>& p) {
     return M::log(q, p);
   }
 };
-struct ChordFunction {
+struct ChordFunction : ByExponential<ChordFunction> {
+  static constexpr bool is_geodesic = false;
   template <class M, class T>
   static Vec<T, M::ambient> at(const Point<M, T>& q, const Point<M, T>& p) {
     return M::chord(q, p);
@@ -45,7 +74,7 @@ class WeightedMean {
     start_ = nodes[0];
     const std::vector<double> equal(static_cast<std::size_t>(count), 1.0 / count);
     MaskOf<T> ok = find(nodes, count, equal.data(), start_);
-    if constexpr (std::is_same_v<TwoPoint, LogFunction>) {
+    if constexpr (TwoPoint::is_geodesic) {
       if (M::injectivity_radius < std::numeric_limits<double>::max()) {
         const double limit = 0.5 * M::injectivity_radius;
         for (int i = 0; i < count; ++i) {
@@ -67,8 +96,9 @@ class WeightedMean {
     if constexpr (D > 0) {
       Mat<T, k, D> right;
       Mat<T, k, k> g;
+      const auto q = around();
       for (int i = 0; i < weights.count; ++i) {
-        const auto theta = first_order(nodes[i]);
+        const auto theta = q.theta(nodes[i]);
         for (int c = 0; c < k; ++c) {
           for (int e = 0; e < k; ++e) g(c, e) -= T(weights.l[i]) * theta[c].d[static_cast<std::size_t>(e)];
           for (int a = 0; a < D; ++a) right(c, a) += weights.dl[i][static_cast<std::size_t>(a)] * theta[c].v;
@@ -97,20 +127,15 @@ class WeightedMean {
  private:
   using J = Jet<T, 2 * k>;  // variables (w, v_i)
 
-  /// theta at w = 0 with its derivatives in w.
-  Vec<Dual<T, k>, k> first_order(const Point<M, T>& p) const {
+  template <class S>
+  using Around = typename TwoPoint::template Around<M, S, T>;
+
+  /// The moved point whose derivatives in w are the derivatives of theta (first order).
+  auto around() const {
     using U = Dual<T, k>;
     Vec<U, k> w;
     for (int i = 0; i < k; ++i) w[i].d[static_cast<std::size_t>(i)] = T(1.0);
-    const auto q = M::exp(cast<U>(q_), cast<U>(frame_) * w);
-    return in_frame(TwoPoint::template at<M>(q, cast<U>(p)));
-  }
-  template <class S>
-  Vec<S, k> in_frame(const Vec<S, N>& a) const {
-    Vec<S, k> c;
-    const auto q = cast<S>(q_);
-    for (int i = 0; i < k; ++i) c[i] = M::inner(q, cast<S>(column(frame_, i)), a);
-    return c;
+    return Around<U>(q_, frame_, w);
   }
   /// Newton's method for F0 = 0, from q.
   MaskOf<T> find(const Point<M, T>* nodes, int count, const double* l, Point<M, T>& q);
@@ -120,8 +145,8 @@ class WeightedMean {
   FieldJet<M, D, T> jet_;
   Mat<T, N, k> frame_;
   std::array<Vec<T, k>, D> k_{};
-  Mat<T, k, k> inverse_;                       // of G
-  std::array<Mat<T, k, k>, D> u_{};            // U_a
+  Mat<T, k, k> inverse_;                                    // of G
+  std::array<Mat<T, k, k>, D> u_{};                         // U_a
   std::vector<std::array<Mat<T, k, k>, 1 + D>> variation_;  // w_i, k_{a,i}
 };
 
@@ -137,9 +162,10 @@ MaskOf<T> WeightedMean<M, TwoPoint, D, T>::find(const Point<M, T>* nodes, int co
     frame_ = M::frame(q);
     Mat<T, k, k> g;
     Mat<T, k, 1> step;
+    const auto moved = around();
     for (int i = 0; i < count; ++i) {
       if (l[i] == 0) continue;
-      const auto theta = first_order(nodes[i]);
+      const auto theta = moved.theta(nodes[i]);
       for (int c = 0; c < k; ++c) {
         step(c, 0) += T(l[i]) * theta[c].v;
         for (int e = 0; e < k; ++e) g(c, e) -= T(l[i]) * theta[c].d[static_cast<std::size_t>(e)];
@@ -168,7 +194,7 @@ void WeightedMean<M, TwoPoint, D, T>::linearize(const Point<M, T>* nodes, std::v
   variation_.resize(count);
   Vec<J, k> w;
   for (int i = 0; i < k; ++i) w[i] = J::variable(T(0.0), i);
-  const auto q = M::exp(cast<J>(q_), cast<J>(frame_) * w);
+  const Around<J> q(q_, frame_, w);
 
   Mat<T, k, k> g;
   for (auto& u : u_) u = {};
@@ -176,7 +202,7 @@ void WeightedMean<M, TwoPoint, D, T>::linearize(const Point<M, T>* nodes, std::v
     const T l = T(weights_.l[i]);
     Vec<J, k> v;
     for (int c = 0; c < k; ++c) v[c] = J::variable(T(0.0), k + c);
-    const auto theta = in_frame(TwoPoint::template at<M>(q, M::exp(cast<J>(nodes[i]), cast<J>(M::frame(nodes[i])) * v)));
+    const auto theta = q.theta(nodes[i], M::frame(nodes[i]), v);
     for (int c = 0; c < k; ++c)
       for (int e = 0; e < k; ++e) {
         g(c, e) -= l * theta[c].gradient(e);
@@ -229,17 +255,17 @@ void WeightedMean<M, TwoPoint, D, T>::add_second_variation(const Point<M, T>* no
       for (std::size_t a = 0; a < D; ++a) w[c].d[a] = J(k_[a][c]);
     }
   }
-  const auto q = M::exp(cast<U>(q_), cast<U>(frame_) * w);
+  const Around<U> q(q_, frame_, w);
 
-  Mat<T, k, k> sum_ww;                       // of the scalars s_i
-  std::array<Mat<T, k, k>, D> sum_n{};        // N_a
-  std::vector<Mat<T, k, k>> wv(count);        // s_i in (w, v_i)
+  Mat<T, k, k> sum_ww;                  // of the scalars s_i
+  std::array<Mat<T, k, k>, D> sum_n{};  // N_a
+  std::vector<Mat<T, k, k>> wv(count);  // s_i in (w, v_i)
   std::vector<std::array<Mat<T, k, k>, D>> c_ai(count);
   for (std::size_t i = 0; i < count; ++i) {
     const T l = T(weights_.l[i]);
     Vec<U, k> v;
     for (int c = 0; c < k; ++c) v[c] = U(J::variable(T(0.0), k + c));
-    const auto theta = in_frame(TwoPoint::template at<M>(q, M::exp(cast<U>(nodes[i]), cast<U>(M::frame(nodes[i])) * v)));
+    const auto theta = q.theta(nodes[i], M::frame(nodes[i]), v);
 
     J s;
     for (int c = 0; c < k; ++c) {
@@ -285,8 +311,7 @@ void WeightedMean<M, TwoPoint, D, T>::add_second_variation(const Point<M, T>* no
     for (std::size_t j = i; j < count; ++j) {
       Mat<T, k, k>& h = blocks[i * count + j];
       h += transpose_times(variation_[i][0], wv[j]) + transpose_times(wv[i], variation_[j][0]);
-      for (std::size_t a = 0; a < D; ++a)
-        h += transpose_times(variation_[i][1 + a], c_ai[j][a]) + transpose_times(c_ai[i][a], variation_[j][1 + a]);
+      for (std::size_t a = 0; a < D; ++a) h += transpose_times(variation_[i][1 + a], c_ai[j][a]) + transpose_times(c_ai[i][a], variation_[j][1 + a]);
     }
 }
 

@@ -1,0 +1,351 @@
+#pragma once
+/// \file
+/// DensityTerm: the generic kernel. Any density of any fields, with exact gradient and Hessian (interpolation.hpp explains the seam).
+///
+/// A model has
+///   at<P>(span<const P> parameters)   the density at a point, P double or Pack; its operator()(u...) takes one FieldJet per field and returns W, or
+///   parts(u...)                       returns std::array of the parts of W (then part_names() names them)
+/// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules.
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "karcher/assembly/cell_batches.hpp"
+#include "karcher/interpolation/interpolation.hpp"
+
+namespace karcher {
+
+namespace density_detail {
+
+template <class Density, class... U>
+auto value(const Density& density, const U&... u) {
+  if constexpr (requires { density.parts(u...); }) {
+    const auto parts = density.parts(u...);
+    auto w = parts[0];
+    for (std::size_t i = 1; i < parts.size(); ++i) w += parts[i];
+    return w;
+  } else {
+    return density(u...);
+  }
+}
+
+}  // namespace density_detail
+
+/// A user's density without parameters that vary from point to point.
+template <class Density>
+struct FixedDensity {
+  Density density;
+  template <class P>
+  const Density& at(std::span<const P>) const {
+    return density;
+  }
+  std::vector<std::string> part_names() const { return {}; }
+};
+
+template <class Model, int D, class... Interpolation>
+class DensityTerm : public Term {
+  using T = NativeScalar;
+  static constexpr int W = native_width;
+  static constexpr std::size_t F = sizeof...(Interpolation);
+  static constexpr std::array<int, F> local{local_dim<typename Interpolation::Manifold, D>...};
+  static constexpr int L = (local_dim<typename Interpolation::Manifold, D> + ...);
+  template <std::size_t f>
+  using M = typename std::tuple_element_t<f, std::tuple<Interpolation...>>::Manifold;
+
+  static constexpr int offset(std::size_t f) {
+    int o = 0;
+    for (std::size_t i = 0; i < f; ++i) o += local[i];
+    return o;
+  }
+
+ public:
+  /// \param parameter_keys  keys of input.parameters in the order in which Model::at expects them
+  DensityTerm(std::string name, TermInput input, Model model, std::vector<std::string> parameter_keys)
+      : name_(std::move(name)), model_(std::move(model)), fields_(input.fields), batches_(input, [&](CellKind) { return default_degree(input); }) {
+    for (const auto& key : parameter_keys) parameters_.push_back(input.parameters.at(key));
+    values_.resize(batches_.point_count() * parameters_.size());
+    compute_parameters(input.t, true);
+  }
+
+  /// Twice the highest order of the fields plus two: exact for the squared gradient of polynomials on affine cells, and two degrees more for the
+  /// interpolation, which is not polynomial.
+  static int default_degree(const TermInput& input) {
+    int order = 1;
+    for (int f : input.fields) order = std::max(order, input.all_fields[static_cast<std::size_t>(f)].space->order());
+    return 2 * order + 2;
+  }
+
+  const std::string& name() const override { return name_; }
+  std::vector<std::string> part_names() const override { return model_.part_names(); }
+  int batch_count() const override { return batches_.count(); }
+  const Batch& batch(int b) const override { return batches_.batch(b); }
+  const Cell& cell(int c) const override { return batches_.cell(c); }
+  void set_load_parameter(double t) override { compute_parameters(t, false); }
+
+  void evaluate(const Configuration& u, int b, Want want, BatchResult& out) const override {
+    evaluate_impl(u, b, want, out, std::make_index_sequence<F>{});
+  }
+
+  std::vector<double> part_energies(const Configuration& u) const override {
+    std::vector<double> sums(part_names().size(), 0.0);
+    if (!sums.empty())
+      for (int b = 0; b < batch_count(); ++b) add_parts(u, b, sums, std::make_index_sequence<F>{});
+    return sums;
+  }
+
+ protected:
+  const CellBatches& batches() const { return batches_; }
+  const std::vector<int>& fields() const { return fields_; }
+  /// Parameter p at a quadrature point, for models whose data are not expressions.
+  T& parameter(int b, int q, std::size_t p) { return values_[batches_.point_index(b, q) * parameters_.size() + p]; }
+
+  /// Nodal values, weights and interpolation of all fields of a batch, moved from point to point.
+  template <class I>
+  struct FieldState {
+    using FM = typename I::Manifold;
+    I interpolation;
+    std::vector<Point<FM, T>> nodes;
+    std::vector<std::array<T, D>> dl;
+    Weights<D, T> weights;
+    std::vector<Mat<T, local_dim<FM, D>, FM::dim>> maps;
+  };
+  using States = std::tuple<FieldState<Interpolation>...>;
+
+  template <std::size_t f>
+  MaskOf<T> gather(const Configuration& u, int b, States& states) const {
+    auto& state = std::get<f>(states);
+    const Batch& batch = batches_.batch(b);
+    const KindData& kind = batches_.kind(b);
+    const auto count = static_cast<std::size_t>(kind.shapes[f].nodes);
+    state.nodes.resize(count);
+    state.dl.resize(count);
+    state.maps.resize(count);
+    for (std::size_t n = 0; n < count; ++n)
+      for (int lane = 0; lane < W; ++lane) {
+        const int node = batch.nodes[(static_cast<std::size_t>(kind.first_block[f]) + n) * W + static_cast<std::size_t>(lane)];
+        const double* x = u.at(fields_[f], node, M<f>::ambient);
+        for (int c = 0; c < M<f>::ambient; ++c) set_lane(state.nodes[n][c], lane, x[c]);
+      }
+    return state.interpolation.begin_cell(state.nodes.data(), static_cast<int>(count));
+  }
+
+  template <std::size_t f>
+  MaskOf<T> move_to(int b, int q, States& states) const {
+    auto& state = std::get<f>(states);
+    const KindData& kind = batches_.kind(b);
+    const ShapeTable& shape = kind.shapes[f];
+    const auto first = static_cast<std::size_t>(q) * static_cast<std::size_t>(shape.nodes);
+    const int cell_dim = dimension(kind.kind);
+    if constexpr (D > 0) {
+      const BatchPoint& point = batches_.point(b, q);
+      for (std::size_t n = 0; n < static_cast<std::size_t>(shape.nodes); ++n)
+        for (std::size_t a = 0; a < D; ++a) {
+          T s = T(0.0);
+          for (std::size_t c = 0; c < static_cast<std::size_t>(cell_dim); ++c) s += point.to_frame[a][c] * T(shape.gradient[first + n][c]);
+          state.dl[n][a] = s;
+        }
+    }
+    state.weights = {shape.nodes, shape.value.data() + first, state.dl.data()};
+    return state.interpolation.evaluate(state.nodes.data(), state.weights);
+  }
+
+  auto density(int b, int q) const {
+    return model_.template at<T>(std::span<const T>(values_.data() + batches_.point_index(b, q) * parameters_.size(), parameters_.size()));
+  }
+
+  template <class S, std::size_t... f>
+  auto jets(const States& states, const Vec<S, L>& y, std::index_sequence<f...>) const {
+    return std::tuple{jet_of<S, f>(states, y)...};
+  }
+  template <class S, std::size_t f>
+  auto jet_of(const States& states, const Vec<S, L>& y) const {
+    const auto& interpolation = std::get<f>(states).interpolation;
+    using I = std::tuple_element_t<f, std::tuple<Interpolation...>>;
+    Vec<S, local[f]> mine;
+    for (int i = 0; i < local[f]; ++i) mine[i] = y[offset(f) + i];
+    return jet_at<M<f>, D, typename I::Chart, T, S>(interpolation.jet().value, interpolation.frame(), mine);
+  }
+
+  template <std::size_t... f>
+  void evaluate_impl(const Configuration& u, int b, Want want, BatchResult& out, std::index_sequence<f...> all) const {
+    const KindData& kind = batches_.kind(b);
+    States states;
+    MaskOf<T> defined = T(0.0) < T(1.0);
+    ((defined = defined & gather<f>(u, b, states)), ...);
+
+    const auto n = static_cast<std::size_t>(kind.unknowns);
+    std::vector<T> gradient(want == Want::energy ? 0 : n, T(0.0)), hessian(want == Want::hessian ? n * n : 0, T(0.0));
+    const std::array<std::size_t, F> begin = unknowns_begin(kind);
+    auto second = std::tuple{std::vector<Mat<T, M<f>::dim, M<f>::dim>>(
+        want == Want::hessian ? static_cast<std::size_t>(kind.shapes[f].nodes * kind.shapes[f].nodes) : 0)...};
+
+    T energy = T(0.0);
+    for (int q = 0; q < kind.quadrature->size(); ++q) {
+      ((defined = defined & move_to<f>(b, q, states)), ...);
+      const T weight = batches_.point(b, q).weight;
+      const auto rho = density(b, q);
+      if (want == Want::energy) {
+        energy += weight * density_detail::value(rho, std::get<f>(states).interpolation.jet()...);
+        continue;
+      }
+      (std::get<f>(states).interpolation.linearize(std::get<f>(states).nodes.data(), std::get<f>(states).maps), ...);
+      Vec<T, L> y0;
+      ((place<f>(std::get<f>(states).interpolation.local_coordinates(), y0)), ...);
+      Vec<T, L> covector;
+      if (want == Want::gradient) {
+        using S = Dual<T, L>;
+        Vec<S, L> y;
+        for (int i = 0; i < L; ++i) {
+          y[i].v = y0[i];
+          y[i].d[static_cast<std::size_t>(i)] = T(1.0);
+        }
+        const S w = std::apply([&](const auto&... jet) { return density_detail::value(rho, jet...); }, jets<S>(states, y, all));
+        energy += weight * w.v;
+        for (int i = 0; i < L; ++i) covector[i] = weight * w.d[static_cast<std::size_t>(i)];
+      } else {
+        using S = Jet<T, L>;
+        Vec<S, L> y;
+        for (int i = 0; i < L; ++i) y[i] = S::variable(y0[i], i);
+        S w = std::apply([&](const auto&... jet) { return density_detail::value(rho, jet...); }, jets<S>(states, y, all));
+        w.scale(weight);
+        energy += w.v;
+        for (int i = 0; i < L; ++i) covector[i] = w.gradient(i);
+        (add_rows<f>(states, kind, begin, w, hessian, all), ...);
+        (std::get<f>(states).interpolation.add_second_variation(std::get<f>(states).nodes.data(), part<f>(covector), std::get<f>(second).data()), ...);
+      }
+      (add_gradient<f>(states, kind, begin, covector, gradient), ...);
+    }
+    if (want == Want::hessian) (add_blocks<f>(kind, begin, std::get<f>(second), hessian), ...);
+
+    for (int lane = 0; lane < W; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      out.energy[l] = karcher::lane(energy, lane);
+      bool lane_defined;
+      if constexpr (W == 1)
+        lane_defined = defined;
+      else
+        lane_defined = defined[lane];
+      out.trouble[l] = !lane_defined                ? Trouble::undefined_interpolation
+                       : std::isinf(out.energy[l]) ? Trouble::infinite_energy
+                       : std::isnan(out.energy[l]) ? Trouble::not_finite
+                                                    : Trouble::none;
+    }
+    store(gradient, out.gradient);
+    store(hessian, out.hessian);
+  }
+
+  template <std::size_t... f>
+  void add_parts(const Configuration& u, int b, std::vector<double>& sums, std::index_sequence<f...>) const {
+    using Rho = std::decay_t<decltype(density(0, 0))>;
+    if constexpr (requires(const Rho& rho) { rho.parts(FieldJet<M<f>, D, T>{}...); }) {
+      States states;
+      (gather<f>(u, b, states), ...);
+      for (int q = 0; q < batches_.kind(b).quadrature->size(); ++q) {
+        (move_to<f>(b, q, states), ...);
+        const auto parts = density(b, q).parts(std::get<f>(states).interpolation.jet()...);
+        const T weight = batches_.point(b, q).weight;
+        for (std::size_t p = 0; p < parts.size(); ++p)
+          for (int lane = 0; lane < batches_.batch(b).cells_used; ++lane) sums[p] += karcher::lane(weight * parts[p], lane);
+      }
+    }
+  }
+
+ private:
+  void compute_parameters(double t, bool all) {
+    for (std::size_t p = 0; p < parameters_.size(); ++p) {
+      if (!all && !parameters_[p].depends_on_t) continue;
+      for (int b = 0; b < batch_count(); ++b)
+        for (int q = 0; q < batches_.kind(b).quadrature->size(); ++q)
+          for (int lane = 0; lane < W; ++lane) {
+            Vec3<double> x;
+            for (int c = 0; c < 3; ++c) x[c] = karcher::lane(batches_.point(b, q).x[c], lane);
+            set_lane(values_[batches_.point_index(b, q) * parameters_.size() + p], lane, parameters_[p](x, t));
+          }
+    }
+  }
+
+  std::array<std::size_t, F> unknowns_begin(const KindData& kind) const {
+    std::array<std::size_t, F> begin{};
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < F; ++i) {
+      begin[i] = next;
+      next += static_cast<std::size_t>(kind.shapes[i].nodes * kind.blocks[static_cast<std::size_t>(kind.first_block[i])].dim);
+    }
+    return begin;
+  }
+  template <std::size_t f>
+  static void place(const Vec<T, local[f]>& mine, Vec<T, L>& y) {
+    for (int i = 0; i < local[f]; ++i) y[offset(f) + i] = mine[i];
+  }
+  template <std::size_t f>
+  static Vec<T, local[f]> part(const Vec<T, L>& y) {
+    Vec<T, local[f]> mine;
+    for (int i = 0; i < local[f]; ++i) mine[i] = y[offset(f) + i];
+    return mine;
+  }
+
+  template <std::size_t f>
+  static void add_gradient(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Vec<T, L>& covector,
+                           std::vector<T>& gradient) {
+    constexpr auto k = static_cast<std::size_t>(M<f>::dim);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kind.shapes[f].nodes); ++i) {
+      const auto g = transpose_times(std::get<f>(states).maps[i], part<f>(covector));
+      for (std::size_t c = 0; c < k; ++c) gradient[begin[f] + i * k + c] += g[static_cast<int>(c)];
+    }
+  }
+
+  /// A_i^T C A_j for the rows of field f and the columns of the fields from f on.
+  template <std::size_t f, std::size_t... g>
+  static void add_rows(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w, std::vector<T>& hessian,
+                       std::index_sequence<g...>) {
+    (add_pair<f, g>(states, kind, begin, w, hessian), ...);
+  }
+  template <std::size_t f, std::size_t g>
+  static void add_pair(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w, std::vector<T>& hessian) {
+    if constexpr (g >= f) {
+      constexpr int kf = M<f>::dim, kg = M<g>::dim;
+      const auto n = static_cast<std::size_t>(kind.unknowns);
+      const auto rows = static_cast<std::size_t>(kind.shapes[f].nodes), columns = static_cast<std::size_t>(kind.shapes[g].nodes);
+      Mat<T, local[f], local[g]> c;
+      for (int i = 0; i < local[f]; ++i)
+        for (int j = 0; j < local[g]; ++j) c(i, j) = w.hessian(offset(f) + i, offset(g) + j);
+      for (std::size_t j = 0; j < columns; ++j) {
+        const auto ca = c * std::get<g>(states).maps[j];
+        for (std::size_t i = 0; i < (f == g ? j + 1 : rows); ++i) {
+          const auto block = transpose_times(std::get<f>(states).maps[i], ca);
+          T* to = hessian.data() + (begin[f] + i * kf) * n + begin[g] + j * kg;
+          for (std::size_t r = 0; r < kf; ++r)
+            for (std::size_t s = 0; s < kg; ++s) to[r * n + s] += block(static_cast<int>(r), static_cast<int>(s));
+        }
+      }
+    }
+  }
+  template <std::size_t f>
+  static void add_blocks(const KindData& kind, const std::array<std::size_t, F>& begin, const std::vector<Mat<T, M<f>::dim, M<f>::dim>>& blocks,
+                         std::vector<T>& hessian) {
+    constexpr auto k = static_cast<std::size_t>(M<f>::dim);
+    const auto n = static_cast<std::size_t>(kind.unknowns), nodes = static_cast<std::size_t>(kind.shapes[f].nodes);
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t j = i; j < nodes; ++j)
+        for (std::size_t r = 0; r < k; ++r)
+          for (std::size_t s = 0; s < k; ++s)
+            hessian[(begin[f] + i * k + r) * n + begin[f] + j * k + s] += blocks[i * nodes + j](static_cast<int>(r), static_cast<int>(s));
+  }
+
+  static void store(const std::vector<T>& from, AlignedVector<double>& to) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      for (int lane = 0; lane < W; ++lane) to[i * W + static_cast<std::size_t>(lane)] = karcher::lane(from[i], lane);
+  }
+
+  std::string name_;
+  Model model_;
+  std::vector<int> fields_;
+  CellBatches batches_;
+  std::vector<ParameterValue> parameters_;
+  std::vector<T> values_;  // [point][parameter]
+};
+
+}  // namespace karcher

@@ -1,0 +1,56 @@
+#pragma once
+/// \file
+/// Which interpolation serves a manifold and a rule: the closed form where there is one, the implicit weighted mean otherwise.
+
+#include "karcher/interpolation/linear.hpp"
+#include "karcher/interpolation/sphere_projection.hpp"
+#include "karcher/interpolation/weighted_mean.hpp"
+#include "karcher/manifold/euclidean.hpp"
+#include "karcher/manifold/rule.hpp"
+#include "karcher/manifold/sphere.hpp"
+#include "karcher/manifold/unitary.hpp"
+
+namespace karcher {
+
+template <class M>
+inline constexpr bool is_linear = false;
+template <int N>
+inline constexpr bool is_linear<Euclidean<N>> = true;
+
+/// Unit spheres of an ambient space, whose projection is x / |x|.
+template <class M>
+inline constexpr bool is_unit_sphere = false;
+template <int N>
+inline constexpr bool is_unit_sphere<Sphere<N>> = true;
+template <>
+inline constexpr bool is_unit_sphere<Unitary> = true;
+
+namespace rules_detail {
+template <class M, int D, class T>
+struct Projection {
+  using type = WeightedMean<M, ChordFunction, D, T>;
+};
+template <class M, int D, class T>
+requires(is_unit_sphere<M>) struct Projection<M, D, T> {
+  using type = SphereProjection<M, D, T>;
+};
+template <class M, int D, class T>
+requires(is_linear<M>) struct Projection<M, D, T> {
+  using type = LinearInterpolation<M, D, T>;
+};
+template <class M, int D, class T>
+struct Geodesic {
+  using type = WeightedMean<M, LogFunction, D, T>;
+};
+template <class M, int D, class T>
+requires(is_linear<M>) struct Geodesic<M, D, T> {
+  using type = LinearInterpolation<M, D, T>;
+};
+}  // namespace rules_detail
+
+template <class M, int D, class T>
+using ProjectionInterpolation = typename rules_detail::Projection<M, D, T>::type;
+template <class M, int D, class T>
+using GeodesicInterpolation = typename rules_detail::Geodesic<M, D, T>::type;
+
+}  // namespace karcher

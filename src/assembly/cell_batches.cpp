@@ -1,0 +1,81 @@
+#include "karcher/assembly/cell_batches.hpp"
+
+#include <fmt/format.h>
+
+#include "karcher/error.hpp"
+
+namespace karcher {
+namespace {
+
+constexpr int W = native_width;
+
+KindData make_kind(CellKind kind, const TermInput& input, int degree) {
+  KindData data;
+  data.kind = kind;
+  data.quadrature = &quadrature(kind, degree);
+  for (int f : input.fields) {
+    const Field& field = input.all_fields[static_cast<std::size_t>(f)];
+    ShapeTable& table = data.shapes.emplace_back();
+    table.nodes = node_count(kind, field.space->order());
+    for (const auto& xi : data.quadrature->points) {
+      const Shape shape = lagrange(kind, field.space->order(), xi);
+      table.value.insert(table.value.end(), shape.value.begin(), shape.value.end());
+      table.gradient.insert(table.gradient.end(), shape.gradient.begin(), shape.gradient.end());
+    }
+    data.first_block.push_back(static_cast<int>(data.blocks.size()));
+    for (int n = 0; n < table.nodes; ++n) data.blocks.push_back({f, field.manifold->dim});
+    data.unknowns += table.nodes * field.manifold->dim;
+  }
+  return data;
+}
+
+}  // namespace
+
+CellBatches::CellBatches(const TermInput& input, const std::function<int(CellKind)>& default_degree) : region_(input.region) {
+  std::map<CellKind, std::vector<int>> by_kind;
+  for (std::size_t c = 0; c < region_.cells.size(); ++c) by_kind[region_.cells[c].kind].push_back(static_cast<int>(c));
+  kinds_.reserve(by_kind.size());
+  const ReferenceGeometry reference(*input.mesh, input.reference_position, input.reference_order);
+
+  for (const auto& [kind, cells] : by_kind) {
+    const auto chosen = input.quadrature_degree.find(kind);
+    const KindData& data = kinds_.emplace_back(make_kind(kind, input, chosen != input.quadrature_degree.end() ? chosen->second : default_degree(kind)));
+    const int dim = dimension(kind);
+    for (std::size_t begin = 0; begin < cells.size(); begin += W) {
+      Batch& batch = batches_.emplace_back();
+      kind_.push_back(static_cast<int>(kinds_.size()) - 1);
+      first_point_.push_back(points_.size());
+      batch.cells_used = static_cast<int>(std::min<std::size_t>(W, cells.size() - begin));
+      batch.blocks = &data.blocks;
+      batch.nodes.resize(data.blocks.size() * W);
+      points_.resize(points_.size() + static_cast<std::size_t>(data.quadrature->size()));
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        const int c = cells[std::min(begin + lane, cells.size() - 1)];
+        batch.cells[lane] = c;
+        const Cell& cell = region_.cells[static_cast<std::size_t>(c)];
+        std::size_t block = 0;
+        for (int f : input.fields) {
+          const Field& field = input.all_fields[static_cast<std::size_t>(f)];
+          const std::vector<int> nodes = field.space->entity_nodes(cell);
+          if (nodes.empty())
+            throw InputError(fmt::format("Field \"{}\" lives on region \"{}\", which does not contain all of region \"{}\".", field.name,
+                                         field.space->region().name, region_.name));
+          for (int n : nodes) batch.nodes[block++ * W + lane] = n;
+        }
+        const auto jets = reference.at(cell, data.quadrature->points);
+        for (std::size_t q = 0; q < jets.size(); ++q) {
+          const CellFrame frame = cell_frame(jets[q], dim);
+          BatchPoint& p = points_[first_point_.back() + q];
+          const auto l = static_cast<int>(lane);
+          set_lane(p.weight, l, data.quadrature->weights[q] * frame.measure);
+          for (int a = 0; a < 3; ++a) {
+            set_lane(p.x[a], l, jets[q].x[a]);
+            for (int b = 0; b < 3; ++b) set_lane(p.to_frame[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)], l, frame.to_frame(a, b));
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace karcher

@@ -1,0 +1,372 @@
+#include "karcher/solve/minimize.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "karcher/error.hpp"
+#include "karcher/solve/continuation.hpp"
+#include "karcher/solve/exchange.hpp"
+#include "solve/small_problem.hpp"
+
+namespace karcher {
+namespace {
+
+using testing::CellFunction;
+using testing::CellValue;
+using testing::SmallProblem;
+
+/// Chained Rosenbrock function: sum over cells of 100 (b - a^2)^2 + (1 - a)^2.
+CellValue rosenbrock(const std::vector<const double*>& u, const Vec3<double>&, double, double* g, double* h) {
+  const double a = *u[0], b = *u[1], r = b - a * a;
+  if (g) {
+    g[0] = -400 * a * r - 2 * (1 - a);
+    g[1] = 200 * r;
+  }
+  if (h) {
+    h[0] = -400 * r + 800 * a * a + 2;
+    h[1] = h[2] = -400 * a;
+    h[3] = 200;
+  }
+  return {100 * r * r + (1 - a) * (1 - a)};
+}
+
+/// 1/2 u.A u on S^2 at both nodes of a cell, A = diag(1, 2, 4): critical points are the eigenvectors, the energy is half the eigenvalue. The Hessian of
+/// the pullback through exp is E^T A E - (u.A u) I.
+CellValue rayleigh(const std::vector<const double*>& u, const Vec3<double>&, double, double* g, double* h) {
+  const double eigenvalues[] = {1, 2, 4};
+  const ManifoldOps& sphere = manifold_by_name("S2");
+  double energy = 0;
+  for (std::size_t node = 0; node < 2; ++node) {
+    double frame[6], twice = 0;
+    sphere.frame(u[node], frame);
+    for (int i = 0; i < 3; ++i) twice += eigenvalues[i] * u[node][i] * u[node][i];
+    energy += 0.5 * twice;
+    for (std::size_t k = 0; k < 2; ++k) {
+      double slope = 0;
+      for (std::size_t i = 0; i < 3; ++i) slope += frame[i * 2 + k] * eigenvalues[i] * u[node][i];
+      if (g) g[node * 2 + k] = slope;
+      for (std::size_t l = 0; h && l < 2; ++l) {
+        double c = k == l ? -twice : 0.0;
+        for (std::size_t i = 0; i < 3; ++i) c += frame[i * 2 + k] * eigenvalues[i] * frame[i * 2 + l];
+        h[(node * 2 + k) * 4 + node * 2 + l] = c;
+      }
+    }
+  }
+  return {energy};
+}
+
+/// Sum over cells of 1/2 (b - a - t)^2, infinite where b - a > 1.8.
+CellValue springs(const std::vector<const double*>& u, const Vec3<double>&, double t, double* g, double* h) {
+  const double r = *u[1] - *u[0] - t;
+  if (g) {
+    g[0] = -r;
+    g[1] = r;
+  }
+  if (h) {
+    h[0] = h[3] = 1;
+    h[1] = h[2] = -1;
+  }
+  if (*u[1] - *u[0] > 1.8) return {INFINITY, Trouble::infinite_energy};
+  return {0.5 * r * r};
+}
+
+struct Recorder : Observer {
+  std::vector<IterationRecord> records;
+  std::vector<StepReport> steps;
+  std::vector<double> begun;
+  void load_step_begins(int, double t) override { begun.push_back(t); }
+  void iteration(const IterationRecord& r) override { records.push_back(r); }
+  void load_step_finished(const StepReport& r, const Configuration&) override { steps.push_back(r); }
+};
+
+TEST(Minimize, FindsTheMinimumOfTheChainedRosenbrockFunction) {
+  for (int max_corrections : {0, 20}) {
+    SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
+    SolverOptions options;
+    options.max_corrections = max_corrections;
+    options.gradient_tolerance = 1e-12;
+    const StepReport report = minimize(*p.functional, p.u, options, {});
+    complete(*p.layout, p.u);
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    EXPECT_EQ(report.negative_eigenvalues, 0);
+    // -1.2 everywhere lies in the basin of the global minimum or of the other local one near (-1, 1, 1, ...) (Kok and Sandrock 2009).
+    EXPECT_NEAR(std::abs(p.value(0)), 1, 0.01);
+    for (int i = 1; i <= 18; ++i) EXPECT_NEAR(p.value(i), 1, 2e-2);
+    EXPECT_LT(report.energy, 3.99);
+    EXPECT_LE(report.iterations, 60);
+  }
+}
+
+TEST(Minimize, EnergyNeverRises) {
+  SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  minimize(*p.functional, p.u, {}, observers);
+  ASSERT_GT(recorder.records.size(), 5u);
+  for (std::size_t i = 1; i < recorder.records.size(); ++i) EXPECT_LE(recorder.records[i].energy, recorder.records[i - 1].energy + 1e-12);
+}
+
+TEST(Minimize, FindsTheLowestEigenvectorOnTheSphere) {
+  std::vector<double> initial;
+  for (int i = 0; i < 5; ++i) {
+    const double angle = 0.3 + i;
+    for (double x : {std::sin(angle) * 0.6, std::cos(angle), std::sin(angle) * 0.8}) initial.push_back(x);
+  }
+  SmallProblem p(4, manifold_by_name("S2"), rayleigh, initial);
+  SolverOptions options;
+  options.gradient_tolerance = 1e-10;
+  const StepReport report = minimize(*p.functional, p.u, options, {});
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_EQ(report.negative_eigenvalues, 0);
+  EXPECT_NEAR(report.energy, 8 * 0.5 * 1, 1e-12);  // two nodes in each of four cells
+}
+
+std::vector<double> poles(int nodes, int axis) {
+  std::vector<double> initial(static_cast<std::size_t>(3 * nodes), 0.0);
+  for (int i = 0; i < nodes; ++i) initial[static_cast<std::size_t>(3 * i + axis)] = 1;
+  return initial;
+}
+
+TEST(Minimize, ReportsASaddleWhereItStartsAtOne) {
+  SmallProblem p(4, manifold_by_name("S2"), rayleigh, poles(5, 1));
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_EQ(report.negative_eigenvalues, 5);  // one for every node: the direction of the eigenvalue 1
+  EXPECT_NE(report.reason.find("not a local minimum"), std::string::npos) << report.reason;
+}
+
+TEST(Minimize, EscapesFromASaddleWhenAsked) {
+  for (int axis : {1, 2}) {
+    SmallProblem p(4, manifold_by_name("S2"), rayleigh, poles(5, axis));
+    SolverOptions options;
+    options.escape = true;
+    const StepReport report = minimize(*p.functional, p.u, options, {});
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    EXPECT_EQ(report.negative_eigenvalues, 0);
+    EXPECT_NEAR(report.energy, 4, 1e-10);
+  }
+}
+
+/// Flags that fix both ends of [0, cells], wherever the space has put their nodes.
+std::vector<char> fixed_ends(int cells) {
+  const auto mesh = testing::line_mesh(cells);
+  const Space space(mesh, mesh->regions.at("all"), 1);
+  std::vector<char> fixed;
+  for (int node = 0; node <= cells; ++node) fixed.push_back(space.position(node)[0] < 0.5 || space.position(node)[0] > cells - 0.5);
+  return fixed;
+}
+
+TEST(Minimize, LeavesFixedComponentsAlone) {
+  std::vector<double> initial;
+  for (int i = 0; i <= 10; ++i) initial.push_back(0.25 + 0.05 * i * i);
+  SmallProblem q(10, manifold_by_name("R1"), springs, initial, fixed_ends(10));
+  const StepReport report = minimize(*q.functional, q.u, {}, {});
+  complete(*q.layout, q.u);
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_EQ(q.value(0), 0.25);
+  EXPECT_EQ(q.value(10), 5.25);
+  for (int i = 1; i < 10; ++i) EXPECT_NEAR(q.value(i), 0.25 + 0.5 * i, 1e-12);
+  EXPECT_NEAR(report.energy, 10 * 0.5 * 0.25, 1e-12);
+}
+
+TEST(Minimize, FailedEvaluationsShortenTheStepAndNameThePlace) {
+  // From a = b the full step goes to b - a = t = 1.9, beyond the barrier at 1.8.
+  std::vector<char> fixed{1, 0};
+  SmallProblem probe(1, manifold_by_name("R1"), springs, {0, 0});
+  if (probe.field.space->position(0)[0] > 0.5) std::swap(fixed[0], fixed[1]);
+  SmallProblem p(1, manifold_by_name("R1"), springs, {0, 0}, fixed);
+  p.functional->set_load_parameter(1.9);
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  SolverOptions options;
+  options.initial_radius = 10;
+  options.max_iterations = 30;
+  const StepReport report = minimize(*p.functional, p.u, options, observers);
+  EXPECT_EQ(report.status, Status::not_converged);
+  ASSERT_FALSE(recorder.records.empty());
+  EXPECT_FALSE(recorder.records[0].accepted);
+  EXPECT_NE(recorder.records[0].note.find("test-term in the cell around (0.5, 0, 0)"), std::string::npos) << recorder.records[0].note;
+  EXPECT_LT(recorder.records[1].radius, recorder.records[0].radius);
+  complete(*p.layout, p.u);
+  EXPECT_GT(p.value(1), 1.5);
+  EXPECT_LE(p.value(1), 1.8);
+}
+
+TEST(Minimize, AnInfiniteEnergyAtTheStartIsAFailureThatSaysWhere) {
+  SmallProblem p(3, manifold_by_name("R1"), springs, {0, 0, 3, 3});
+  const Configuration before = p.u;
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  EXPECT_EQ(report.status, Status::failed);
+  EXPECT_NE(report.reason.find("(1.5, 0, 0)"), std::string::npos) << report.reason;
+  EXPECT_EQ(before.values, p.u.values);
+}
+
+TEST(Minimize, ARejectedStepLeavesTheBitsUnchanged) {
+  SmallProblem p(1, manifold_by_name("R1"), springs, {0.1, 0.3});
+  p.functional->set_load_parameter(1.9);
+  const Configuration before = p.u;
+  SolverOptions options;
+  options.initial_radius = 100;
+  options.max_iterations = 1;
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  const StepReport report = minimize(*p.functional, p.u, options, observers);
+  ASSERT_EQ(recorder.records.size(), 1u);
+  EXPECT_FALSE(recorder.records[0].accepted);
+  EXPECT_EQ(report.status, Status::not_converged);
+  EXPECT_EQ(before.values, p.u.values);
+}
+
+TEST(Minimize, GivesTheSameBitsTwice) {
+  // On several ranks MUMPS adds contributions in the order in which they arrive: there, the same to rounding.
+  const double tolerance = world_size() == 1 ? 0 : 1e-9;
+  std::vector<double> first;
+  for (int run = 0; run < 2; ++run) {
+    SmallProblem p(30, manifold_by_name("R1"), rosenbrock, std::vector<double>(31, -1.2));
+    minimize(*p.functional, p.u, {}, {});
+    if (run == 0) first = p.u.values[0];
+    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_LE(std::abs(first[i] - p.u.values[0][i]), tolerance);
+  }
+}
+
+TEST(Minimize, StopsAtTheAllowedNumberOfIterationsAndSaysSo) {
+  SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
+  SolverOptions options;
+  options.max_iterations = 3;
+  const StepReport report = minimize(*p.functional, p.u, options, {});
+  EXPECT_EQ(report.status, Status::not_converged);
+  EXPECT_EQ(report.iterations, 3);
+  EXPECT_NE(report.reason.find("After 3 iterations"), std::string::npos);
+}
+
+TEST(Minimize, EndsWhenInterrupted) {
+  SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
+  interrupt_requested = true;
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  interrupt_requested = false;
+  EXPECT_EQ(report.status, Status::interrupted);
+}
+
+TEST(SolverOptions, RefuseWhatTheSolverDoesNotHave) {
+  SolverOptions options;
+  EXPECT_TRUE(options.validate().empty());
+  options.method = "mixed-newton";
+  options.subproblem = "monotone-multigrid";
+  options.norm = "max";
+  options.max_iterations = -1;
+  EXPECT_EQ(options.validate().size(), 4u);
+  SmallProblem p(2, manifold_by_name("R1"), springs, {0, 0, 0});
+  EXPECT_THROW(minimize(*p.functional, p.u, options, {}), InputError);
+}
+
+TEST(GradientFlow, TakesImplicitEulerStepsOfTheHeatEquation) {
+  // One free node between two fixed ones: u' = -2 u / m with lumped mass m = 1, so u_k = u_0 / (1 + 2 tau)^k.
+  CellFunction no_rest_length = [](const auto& u, const auto& x, double, double* g, double* h) { return springs(u, x, 0, g, h); };
+  SmallProblem p(2, manifold_by_name("R1"), no_rest_length, {0, 1, 0}, fixed_ends(2));
+  SolverOptions options;
+  options.method = "gradient-flow";
+  options.gradient_tolerance = 1e-12;
+  ContinuationOptions times;
+  times.to = 0.5;
+  times.steps = 5;
+  const ContinuationReport report = run_continuation(*p.functional, p.u, {}, times, options, {});
+  complete(*p.layout, p.u);
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_NEAR(p.value(1), std::pow(1.2, -5), 1e-12);
+}
+
+TEST(GradientFlow, TurnsOnTheSphereAtTheSpeedOfItsGradient) {
+  // Each node obeys theta' = -dE/dtheta / m. In the plane of e1 and e2 at angle theta from e1: E = 1/2 (1 + sin^2 theta) per cell and node.
+  const double theta = 0.6;
+  std::vector<double> initial;
+  for (int i = 0; i < 2; ++i)
+    for (double x : {std::cos(theta), std::sin(theta), 0.0}) initial.push_back(x);
+  SmallProblem p(1, manifold_by_name("S2"), rayleigh, initial);
+  SolverOptions options;
+  options.method = "gradient-flow";
+  options.gradient_tolerance = 1e-12;
+  ContinuationOptions times;
+  times.to = 0.1;
+  times.steps = 1;
+  run_continuation(*p.functional, p.u, {}, times, options, {});
+  complete(*p.layout, p.u);
+  const double found = std::atan2(p.value(0, 1), p.value(0, 0));
+  // implicit Euler with lumped mass 1/2: (found - theta) / tau = -2 sin(found) cos(found)
+  EXPECT_NEAR((found - theta) / 0.1, -2 * std::sin(found) * std::cos(found), 1e-9);
+}
+
+/// Ends of a chain of springs pulled apart to 3 t.
+struct Pull {
+  SmallProblem p;
+  int last = 0;
+  explicit Pull(int cells, CellFunction f = springs)
+      : p(cells, manifold_by_name("R1"), std::move(f), std::vector<double>(static_cast<std::size_t>(cells) + 1, 0.0), fixed_ends(cells)) {
+    for (int node = 0; node <= cells; ++node)
+      if (p.field.space->position(node)[0] > cells - 0.5) last = node;
+  }
+  BoundaryValues boundary(double scale) const {
+    return [this, scale](double t, Configuration& u) { u.values[0][static_cast<std::size_t>(last)] = scale * t; };
+  }
+};
+
+TEST(Continuation, PrescribedDisplacementsAreSpreadBeforeTheFirstEvaluation) {
+  // Pulled by 3 in one go, the last spring alone would be longer than 1.8 (infinite energy); spread over four springs it is 0.75.
+  Pull pull(4);
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(3), {}, {}, observers);
+  complete(*pull.p.layout, pull.p.u);
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_EQ(pull.p.value(4), 3);
+  EXPECT_NEAR(pull.p.value(1), 0.75, 1e-12);
+  ASSERT_EQ(recorder.steps.size(), 1u);
+  EXPECT_LE(recorder.steps[0].work.factorisations, 2);
+}
+
+TEST(Continuation, VisitsTheLoadStepsInOrder) {
+  Pull pull(4);
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  ContinuationOptions options;
+  options.from = 1;
+  options.to = 2;
+  options.steps = 4;
+  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(1), options, {}, observers);
+  EXPECT_EQ(report.steps.size(), 4u);
+  EXPECT_EQ(recorder.begun, (std::vector<double>{1.25, 1.5, 1.75, 2}));
+  ASSERT_EQ(recorder.steps.size(), 4u);
+  // springs of rest length t, four of them between 0 and t
+  for (const StepReport& s : recorder.steps) EXPECT_NEAR(s.energy, 4 * 0.5 * std::pow(0.75 * s.t, 2), 1e-12);
+  EXPECT_EQ(recorder.steps[3].load_step, 3);
+}
+
+TEST(Continuation, FailureEndsItAtTheLastConvergedConfiguration) {
+  Pull pull(1);  // the one spring breaks at length 1.8
+  ContinuationOptions options;
+  options.steps = 4;
+  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(2.8), options, {}, {});
+  complete(*pull.p.layout, pull.p.u);
+  EXPECT_EQ(report.status, Status::failed);
+  ASSERT_EQ(report.steps.size(), 3u);
+  EXPECT_NEAR(pull.p.value(1), 1.4, 1e-12);
+}
+
+TEST(Continuation, AdaptiveStepsHalveUntilTheyConverge) {
+  // Same spring: adaptive steps creep towards the break at t = 1.8 / 2.8 and give up at the smallest step.
+  Pull pull(1);
+  ContinuationOptions options;
+  options.adaptive = true;
+  options.smallest = 0.01;
+  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(2.8), options, {}, {});
+  complete(*pull.p.layout, pull.p.u);
+  EXPECT_EQ(report.status, Status::failed);
+  EXPECT_GT(pull.p.value(1), 1.8 - 2.8 * 0.02);
+  EXPECT_LE(pull.p.value(1), 1.8);
+  for (std::size_t k = 0; k + 1 < report.steps.size(); ++k) EXPECT_EQ(report.steps[k].status, Status::converged);
+}
+
+}  // namespace
+}  // namespace karcher

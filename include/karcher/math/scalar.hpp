@@ -1,0 +1,137 @@
+#pragma once
+/// \file
+/// What every scalar has in common: the plain value inside (double or Pack), a choice by the plain value, order.
+///
+/// Scalars are double, Pack<W>, Jet<T, N> and Dual<U, D>, nested as their headers say. Comparisons look at the plain value only, so a Jet takes the
+/// branch that its value takes; the answer is a bool or a Mask.
+
+#include <type_traits>
+#include <utility>
+
+#include "karcher/math/dual.hpp"
+
+namespace karcher {
+
+/// The double or Pack at the bottom of a scalar.
+template <class T>
+struct base_of {
+  using type = T;
+};
+template <class T, int N>
+struct base_of<Jet<T, N>> : base_of<T> {};
+template <class U, int D>
+struct base_of<Dual<U, D>> : base_of<U> {};
+template <class T>
+using Base = typename base_of<T>::type;
+
+/// True for scalars without derivatives.
+template <class T>
+inline constexpr bool is_base = std::is_same_v<T, Base<T>>;
+
+inline const double& base(const double& x) { return x; }
+template <int W>
+const Pack<W>& base(const Pack<W>& x) {
+  return x;
+}
+template <class T, int N>
+const T& base(const Jet<T, N>& x) {
+  return x.v;
+}
+template <class U, int D>
+const Base<U>& base(const Dual<U, D>& x) {
+  return base(x.v);
+}
+
+/// A plain value as a scalar X without derivatives.
+template <class X>
+X constant(const Base<X>& x) {
+  if constexpr (is_base<X>) {
+    return x;
+  } else {
+    X r;
+    r.v = constant<std::remove_cvref_t<decltype(r.v)>>(x);
+    return r;
+  }
+}
+
+/// Truth value of comparisons of T: bool or Mask.
+template <class T>
+using MaskOf = decltype(std::declval<const Base<T>&>() < std::declval<const Base<T>&>());
+
+/// m ? a : b, lane by lane, derivatives with the value.
+template <class T, int N>
+Jet<T, N> select(const MaskOf<T>& m, const Jet<T, N>& a, const Jet<T, N>& b) {
+  Jet<T, N> r;
+  r.v = select(m, a.v, b.v);
+  for (std::size_t i = 0; i < r.g.size(); ++i) r.g[i] = select(m, a.g[i], b.g[i]);
+  for (std::size_t i = 0; i < r.h.size(); ++i) r.h[i] = select(m, a.h[i], b.h[i]);
+  return r;
+}
+template <class U, int D>
+Dual<U, D> select(const MaskOf<U>& m, const Dual<U, D>& a, const Dual<U, D>& b) {
+  Dual<U, D> r;
+  r.v = select(m, a.v, b.v);
+  for (std::size_t i = 0; i < r.d.size(); ++i) r.d[i] = select(m, a.d[i], b.d[i]);
+  return r;
+}
+
+namespace scalar_detail {
+template <class T>
+inline constexpr bool differentiated = false;
+template <class T, int N>
+inline constexpr bool differentiated<Jet<T, N>> = true;
+template <class U, int D>
+inline constexpr bool differentiated<Dual<U, D>> = true;
+}  // namespace scalar_detail
+
+/// Jet or Dual.
+template <class T>
+concept Differentiated = scalar_detail::differentiated<T>;
+
+template <Differentiated T>
+auto operator<(const T& a, const T& b) {
+  return base(a) < base(b);
+}
+template <Differentiated T>
+auto operator>(const T& a, const T& b) {
+  return base(a) > base(b);
+}
+template <Differentiated T>
+auto operator<=(const T& a, const T& b) {
+  return base(a) <= base(b);
+}
+template <Differentiated T>
+auto operator>=(const T& a, const T& b) {
+  return base(a) >= base(b);
+}
+template <Differentiated T>
+auto operator<(const T& a, double b) {
+  return base(a) < Base<T>(b);
+}
+template <Differentiated T>
+auto operator>(const T& a, double b) {
+  return base(a) > Base<T>(b);
+}
+template <Differentiated T>
+auto operator<=(const T& a, double b) {
+  return base(a) <= Base<T>(b);
+}
+template <Differentiated T>
+auto operator>=(const T& a, double b) {
+  return base(a) >= Base<T>(b);
+}
+
+template <Differentiated T>
+T abs(const T& a) {
+  return select(base(a) < Base<T>(0.0), -a, a);
+}
+template <Differentiated T>
+T max(const T& a, const T& b) {
+  return select(base(a) < base(b), b, a);
+}
+template <Differentiated T>
+T min(const T& a, const T& b) {
+  return select(base(b) < base(a), b, a);
+}
+
+}  // namespace karcher

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "karcher/error.hpp"
@@ -10,8 +11,8 @@ namespace {
 
 using Place = std::array<int, 3>;  // reference coordinates times the order
 
-/// Interior points of the edge from a to b.
-void append_edge(std::vector<Place>& places, const Place& a, const Place& b, int p) {
+/// Interior points of the edge from a to b (copies: the places grow meanwhile).
+void append_edge(std::vector<Place>& places, Place a, Place b, int p) {
   for (int k = 1; k < p; ++k) {
     Place x{};
     for (std::size_t i = 0; i < 3; ++i) x[i] = a[i] + (b[i] - a[i]) / p * k;
@@ -80,6 +81,7 @@ std::vector<int> match(CellKind kind, int p) {
         if (std::lround(p * xi[i]) != place[static_cast<std::size_t>(i)]) return false;
       return true;
     });
+    assert(found != ours.end());
     order.push_back(static_cast<int>(found - ours.begin()));
   }
   return order;

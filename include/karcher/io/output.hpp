@@ -46,8 +46,9 @@ struct OutputModel {
   std::vector<Field> fields;
   int deformation = -1;            ///< index of the field that moves the points; -1: points stay in the mesh
   std::vector<std::string> terms;  ///< names of the terms of the functional, distinct (summary.hpp)
-  /// Stress-free configuration, if it is not the mesh (TermInput::reference_position).
+  /// Stress-free configuration, if it is not the mesh, and the order of its interpolant (mesh/reference_geometry.hpp).
   std::function<Vec3<double>(const Vec3<double>&)> reference_position;
+  int reference_order = 2;
 };
 
 class Output {

@@ -1,0 +1,261 @@
+#include "karcher/io/output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "karcher/interpolation/evaluate.hpp"
+#include "karcher/mesh/quadrature.hpp"
+#include "karcher/mesh/reference_geometry.hpp"
+
+namespace karcher {
+namespace {
+
+/// Vertices in ascending order: what tells entities of one dimension apart (check_identity in mesh.hpp).
+using EntityKey = std::vector<int>;
+
+EntityKey key_of(const Cell& cell) {
+  EntityKey key(cell.nodes.begin(), cell.nodes.begin() + vertex_count(cell.kind));
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+std::map<EntityKey, int> index_of(const Region& region) {
+  std::map<EntityKey, int> index;
+  for (std::size_t c = 0; c < region.cells.size(); ++c) index.emplace(key_of(region.cells[c]), static_cast<int>(c));
+  return index;
+}
+
+bool same_entities(const std::map<EntityKey, int>& index, int dim, const Region& region) {
+  return region.dim == dim && region.cells.size() == index.size() &&
+         std::all_of(region.cells.begin(), region.cells.end(), [&](const Cell& c) { return index.count(key_of(c)) > 0; });
+}
+
+/// Highest degree that every kind of cell has a rule for; the measure of a curved cell is an integral of a square root, exact for no degree.
+constexpr int measure_degree = 8;
+
+double measure_of(const ReferenceGeometry& reference, const Cell& cell) {
+  const int dim = dimension(cell.kind);
+  if (dim == 0) return 1;
+  const Quadrature& rule = quadrature(cell.kind, measure_degree);
+  const std::vector<GeometryJet> jets = reference.at(cell, rule.points);
+  double measure = 0;
+  for (std::size_t q = 0; q < jets.size(); ++q) measure += rule.weights[q] * cell_frame(jets[q], dim).measure;
+  return measure;
+}
+
+/// d_k = q e_k q^-1 for the unit quaternion q = (w, x, y, z): the columns of the rotation matrix, one after the other.
+std::array<double, 9> directors(const double* q) {
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  return {w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y), 2 * (x * y - w * z),          w * w - x * x + y * y - z * z,
+          2 * (y * z + w * x),           2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z};
+}
+
+/// A cell that has an output node, and the node's number there.
+struct Place {
+  int cell = -1, local = 0;
+};
+
+bool is_rotation(const ManifoldOps& m) { return m.name == "SO3"; }
+bool is_euclidean(const ManifoldOps& m) { return m.name.size() == 2 && m.name[0] == 'R'; }
+
+}  // namespace
+
+struct Output::Part {
+  /// A field on the part: its nodes on every cell.
+  struct Carried {
+    int field = 0;
+    std::vector<std::vector<int>> cell_nodes;
+  };
+  std::unique_ptr<Space> space;  ///< of the output nodes
+  std::map<EntityKey, int> index;
+  std::vector<Carried> fields;
+  std::vector<Place> place;
+  std::vector<Vec3<double>> reference;
+  std::vector<double> measure;
+  std::vector<OutputCell> cells;
+};
+
+Output::Output(OutputModel model) : model_(std::move(model)) {
+  // Distinct regions that carry fields, the main one first.
+  std::vector<std::size_t> order;
+  for (std::size_t f = 0; f < model_.fields.size(); ++f) order.push_back(f);
+  const auto rank = [&](std::size_t f) { return static_cast<int>(f) == model_.deformation ? 4 : model_.fields[f].space->region().dim; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+  for (const std::size_t f : order) {
+    const Region& region = model_.fields[f].space->region();
+    const auto known = [&](const std::unique_ptr<Part>& p) { return same_entities(p->index, p->space->region().dim, region); };
+    if (std::any_of(parts_.begin(), parts_.end(), known)) continue;
+
+    auto part = std::make_unique<Part>();
+    part->index = index_of(region);
+    int p = 1;
+    for (const Cell& c : region.cells) p = std::max(p, c.order);
+    if (model_.reference_position) p = std::max(p, model_.reference_order);
+    for (std::size_t g = 0; g < model_.fields.size(); ++g) {
+      Part::Carried carried{static_cast<int>(g), {}};
+      for (const Cell& c : region.cells) {
+        carried.cell_nodes.push_back(model_.fields[g].space->entity_nodes(c));
+        if (carried.cell_nodes.back().empty()) break;
+      }
+      if (carried.cell_nodes.back().empty()) continue;
+      p = std::max(p, model_.fields[g].space->order());
+      part->fields.push_back(std::move(carried));
+    }
+    part->space = std::make_unique<Space>(model_.fields[f].space->mesh_ptr(), region, p);
+
+    const Mesh& mesh = part->space->mesh();
+    const ReferenceGeometry reference(mesh, model_.reference_position, model_.reference_order);
+    const auto nodes = static_cast<std::size_t>(part->space->node_count());
+    part->place.resize(nodes);
+    part->reference.resize(nodes);
+    for (std::size_t c = 0; c < region.cells.size(); ++c) {
+      const Cell& cell = region.cells[c];
+      const std::vector<int>& on_cell = part->space->cell_nodes(static_cast<int>(c));
+      const std::vector<GeometryJet> jets = reference.at(cell, lagrange_nodes(cell.kind, p));
+      for (std::size_t k = 0; k < on_cell.size(); ++k) {
+        const auto n = static_cast<std::size_t>(on_cell[k]);
+        if (part->place[n].cell >= 0) continue;
+        part->place[n] = {static_cast<int>(c), static_cast<int>(k)};
+        part->reference[n] = jets[k].x;
+      }
+      part->measure.push_back(measure_of(reference, cell));
+      part->cells.push_back({cell.kind, on_cell});
+    }
+    parts_.push_back(std::move(part));
+  }
+}
+
+Output::Output(Output&&) noexcept = default;
+Output::~Output() = default;
+
+// Layout of the energies: part after part, term after term: the number of cells that have the term, then the energy of every cell.
+std::vector<double> Output::cell_energies(const Functional& functional, const Configuration& u) const {
+  const std::size_t terms = functional.terms().size();
+  std::size_t size = 0;
+  for (const auto& part : parts_) size += terms * (1 + part->cells.size());
+  std::vector<double> energies(size, 0.0);
+  BatchResult result;
+  for (std::size_t t = 0; t < terms; ++t) {
+    const Term& term = *functional.terms()[t];
+    for (int b = 0; b < term.batch_count(); ++b) {
+      const Batch& batch = term.batch(b);
+      term.evaluate(u, b, Want::energy, result);
+      for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.cells_used); ++lane) {
+        const Cell& cell = term.cell(batch.cells[lane]);
+        const EntityKey key = key_of(cell);
+        std::size_t begin = 0;
+        for (const auto& part : parts_) {
+          const auto found = part->space->region().dim == dimension(cell.kind) ? part->index.find(key) : part->index.end();
+          const std::size_t block = begin + t * (1 + part->cells.size());
+          begin += terms * (1 + part->cells.size());
+          if (found == part->index.end()) continue;
+          energies[block] += 1;
+          energies[block + 1 + static_cast<std::size_t>(found->second)] +=
+              result.trouble[lane] == Trouble::none ? result.energy[lane] : std::numeric_limits<double>::quiet_NaN();
+        }
+      }
+    }
+  }
+  return energies;
+}
+
+namespace {
+
+/// Values of a field at all output nodes of a part.
+std::vector<double> nodal_values(const Field& field, int field_index, const std::vector<std::vector<int>>& cell_nodes,
+                                 const std::vector<Place>& places, const Space& output, const Configuration& u) {
+  const auto ambient = static_cast<std::size_t>(field.manifold->ambient);
+  const int p = field.space->order();
+  // Basis of the field at the output nodes of every kind of cell.
+  std::map<CellKind, std::vector<std::vector<double>>> basis;
+  std::vector<double> values;
+  values.reserve(places.size() * ambient);
+  std::vector<double> on_cell;
+  for (const auto& [c, local] : places) {
+    const CellKind kind = output.region().cells[static_cast<std::size_t>(c)].kind;
+    auto& weights = basis[kind];
+    if (weights.empty())
+      for (const Vec3<double>& xi : lagrange_nodes(kind, output.order())) weights.push_back(lagrange(kind, p, xi).value);
+    const std::vector<double>& l = weights[static_cast<std::size_t>(local)];
+    const std::vector<int>& nodes = cell_nodes[static_cast<std::size_t>(c)];
+    // At a node of the field its value stands in the file bit for bit.
+    const auto own = std::find_if(l.begin(), l.end(), [](double w) { return w > 1 - 1e-12 && w < 1 + 1e-12; });
+    if (own != l.end()) {
+      const double* value = u.at(field_index, nodes[static_cast<std::size_t>(own - l.begin())], field.manifold->ambient);
+      values.insert(values.end(), value, value + ambient);
+      continue;
+    }
+    on_cell.clear();
+    for (const int n : nodes) {
+      const double* value = u.at(field_index, n, field.manifold->ambient);
+      on_cell.insert(on_cell.end(), value, value + ambient);
+    }
+    FieldAtPoint at = evaluate_field(*field.manifold, field.rule, on_cell, l);
+    if (!at.defined) at.value.assign(ambient, std::numeric_limits<double>::quiet_NaN());
+    values.insert(values.end(), at.value.begin(), at.value.end());
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const double> energies) const {
+  const auto rotations = std::count_if(model_.fields.begin(), model_.fields.end(), [](const Field& f) { return is_rotation(*f.manifold); });
+  std::vector<OutputPart> out;
+  std::size_t block = 0;
+  for (const auto& part : parts_) {
+    OutputPart o;
+    o.region = part->space->region().name;
+    o.dim = part->space->region().dim;
+    o.order = part->space->order();
+    o.cells = part->cells;
+    const std::size_t nodes = part->reference.size();
+    for (std::size_t n = 0; n < nodes; ++n) o.points.push_back(part->space->position(static_cast<int>(n)));
+
+    for (const Part::Carried& carried : part->fields) {
+      const Field& field = model_.fields[static_cast<std::size_t>(carried.field)];
+      const int ambient = field.manifold->ambient;
+      std::vector<double> values = nodal_values(field, carried.field, carried.cell_nodes, part->place, *part->space, u);
+      if (carried.field == model_.deformation && is_euclidean(*field.manifold)) {
+        std::vector<double> reference, displacement;
+        for (std::size_t n = 0; n < nodes; ++n) {
+          Vec3<double> m = part->reference[n];  // coordinates that the field does not have stay where they are
+          for (int i = 0; i < ambient; ++i) m[i] = values[n * static_cast<std::size_t>(ambient) + static_cast<std::size_t>(i)];
+          o.points[n] = m;
+          for (int i = 0; i < 3; ++i) {
+            reference.push_back(part->reference[n][i]);
+            displacement.push_back(m[i] - part->reference[n][i]);
+          }
+        }
+        o.point_data.push_back({"displacement", 3, std::move(displacement)});
+        o.point_data.push_back({"reference", 3, std::move(reference)});
+      }
+      if (is_rotation(*field.manifold)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          std::vector<double> director;
+          for (std::size_t n = 0; n < nodes; ++n) {
+            const std::array<double, 9> d = directors(values.data() + 4 * n);
+            director.insert(director.end(), d.begin() + static_cast<std::ptrdiff_t>(3 * k), d.begin() + static_cast<std::ptrdiff_t>(3 * k + 3));
+          }
+          o.point_data.push_back({(rotations > 1 ? field.name + "." : std::string()) + "director" + std::to_string(k + 1), 3, std::move(director)});
+        }
+      }
+      o.point_data.push_back({field.name, ambient, std::move(values)});
+    }
+
+    if (!energies.empty())
+      for (const std::string& term : model_.terms) {
+        if (energies[block] > 0) {
+          std::vector<double> density;
+          for (std::size_t c = 0; c < o.cells.size(); ++c) density.push_back(energies[block + 1 + c] / part->measure[c]);
+          o.cell_data.push_back({"energy_density." + term, 1, std::move(density)});
+        }
+        block += 1 + o.cells.size();
+      }
+    out.push_back(std::move(o));
+  }
+  return out;
+}
+
+}  // namespace karcher

@@ -10,6 +10,42 @@ namespace karcher::shell {
 /// A part of a hot function: never a call.
 #define KARCHER_SHELL_INLINE [[gnu::always_inline]] inline
 
+/// Quadrature points that are worked on before the blocks with deformation nodes are summed.
+inline constexpr int max_chunk = 8;
+
+template <class T>
+using MaskOf = decltype(T{} < T{});
+KARCHER_SHELL_INLINE bool lane_of(bool m, int) { return m; }
+template <int W>
+KARCHER_SHELL_INLINE bool lane_of(const Mask<W>& m, int l) {
+  return m[l];
+}
+
+template <class T>
+KARCHER_SHELL_INLINE T load(const double* p) {
+  if constexpr (lanes<T> == 1) {
+    return *p;
+  } else {
+    return T::load(p);
+  }
+}
+template <class T>
+KARCHER_SHELL_INLINE void store(const T& x, double* p) {
+  if constexpr (lanes<T> == 1) {
+    *p = x;
+  } else {
+    x.store(p);
+  }
+}
+template <class T>
+KARCHER_SHELL_INLINE Mat3<T> matrix(const T* a) {
+  return {{a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8]}};
+}
+template <class T>
+KARCHER_SHELL_INLINE void store(const Mat3<T>& m, T* a) {
+  for (int k = 0; k < 9; ++k) a[k] = m.e[static_cast<std::size_t>(k)];
+}
+
 template <class T>
 struct Sym3 {
   T xx, xy, xz, yy, yz, zz;
@@ -51,6 +87,18 @@ KARCHER_SHELL_INLINE Mat3<T> times_hat(const Mat3<T>& m, const Vec3<T>& k) {
     r(i, 0) = m(i, 1) * k[2] - m(i, 2) * k[1];
     r(i, 1) = m(i, 2) * k[0] - m(i, 0) * k[2];
     r(i, 2) = m(i, 0) * k[1] - m(i, 1) * k[0];
+  }
+  return r;
+}
+
+/// [k] M: k crossed with every column.
+template <class T>
+KARCHER_SHELL_INLINE Mat3<T> hat_times(const Vec3<T>& k, const Mat3<T>& m) {
+  Mat3<T> r;
+  for (int j = 0; j < 3; ++j) {
+    r(0, j) = k[1] * m(2, j) - k[2] * m(1, j);
+    r(1, j) = k[2] * m(0, j) - k[0] * m(2, j);
+    r(2, j) = k[0] * m(1, j) - k[1] * m(0, j);
   }
   return r;
 }

@@ -10,8 +10,8 @@ namespace karcher {
 
 Mat<double, 2, 2> SurfaceGeometry::jacobian() const {
   Mat<double, 2, 2> j;
-  for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 2; ++b) j(a, b) = dot(dual[static_cast<std::size_t>(a)], column(frame, b));
+  for (int row = 0; row < 2; ++row)
+    for (int col = 0; col < 2; ++col) j(row, col) = dot(dual[static_cast<std::size_t>(row)], column(frame, col));
   return j;
 }
 

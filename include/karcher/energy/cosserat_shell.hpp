@@ -35,7 +35,7 @@ struct ShellMaterial {
   T thickness{};          ///< h > 0 [length]
   T mu{}, lambda{};       ///< Lame parameters [force/length^2], mu > 0, 3 lambda + 2 mu > 0
   T mu_c{};               ///< Cosserat couple modulus >= 0 [force/length^2]
-  T internal_length{};    ///< L_c > 0 [length]
+  T internal_length{};   ///< L_c > 0 [length]
   std::array<T, 3> b{};   ///< curvature coefficients [1]
 };
 
@@ -46,42 +46,63 @@ struct ShellEnergy {
   T total() const { return membrane + bending + curvature; }
 };
 
-/// The density in tensors. Scalar S of the strains (double, Jet, ...), scalar T of the geometry and the constants.
+/// The density in tensors. Scalar S of the strains (double, Jet, ...), scalar T of the geometry and the constants; S * T must be an S.
 /// \param e, k  strain tensors E and K, any basis of R^3, the same for all arguments
 /// \param b, c  tensors of the reference surface \param n  its unit normal n_0
 template <class S, class T>
 ShellEnergy<S> cosserat_shell_density(const Mat3<S>& e, const Mat3<S>& k, const Mat3<T>& b, const Mat3<T>& c, const Vec3<T>& n, const ShellMaterial<T>& material,
                                       ShellCoupling coupling) {
   const T h = material.thickness, mu = material.mu, mu_c = material.mu_c, lambda = material.lambda;
-  const T mean = T(0.5) * trace(b), gauss = T(2.0) * mean * mean - T(0.5) * trace(b * b);
+  const T mean = T(0.5) * trace(b), gauss = T(2.0) * mean * mean - T(0.5) * trace(b * b), twice_mean = T(2.0) * mean;
   const T plane = lambda * mu / (lambda + T(2.0) * mu);
   const bool refined = coupling == ShellCoupling::birsan_2021;
-  const Mat3<S> in_plane = cast<S>(identity<T, 3>() - outer(n, n));
-  const Vec3<S> normal = cast<S>(n);
 
-  const auto mixed = [&](const Mat3<S>& s, const Mat3<S>& t, const T& trace_factor) {
-    const auto quadratic = [&](const Mat3<S>& x, const Mat3<S>& y) {
-      return S(mu) * dot(sym(x), sym(y)) + S(mu_c) * dot(skew(x), skew(y)) + S(trace_factor) * trace(x) * trace(y);
-    };
-    if (!refined) return quadratic(s, t);
-    return quadratic(in_plane * s, in_plane * t) +
-           S(T(2.0) * mu * mu_c / (mu + mu_c)) * dot(transpose_times(s, normal), transpose_times(t, normal));
+  const auto times = [](const Mat3<S>& x, const Mat3<T>& y) {  // without turning the constants into S
+    Mat3<S> r;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) r(i, j) = x(i, 0) * y(0, j) + x(i, 1) * y(1, j) + x(i, 2) * y(2, j);
+    return r;
   };
-  const auto curvature = [&](const Mat3<S>& s) {
-    const S tr = trace(s);
-    return S(mu * material.internal_length * material.internal_length) *
-           (S(material.b[0]) * (norm2(sym(s)) - tr * tr * (1.0 / 3.0)) + S(material.b[1]) * norm2(skew(s)) + S(material.b[2]) * tr * tr);
+  const auto quadratic = [&](const Mat3<S>& x, const Mat3<S>& y, const T& trace_factor) {
+    // mu <sym, sym> + mu_c <skew, skew> = (mu + mu_c)/2 <x, y> + (mu - mu_c)/2 <x, y^T>
+    return dot(x, y) * (T(0.5) * (mu + mu_c)) + dot(x, transpose(y)) * (T(0.5) * (mu - mu_c)) + trace(x) * trace(y) * trace_factor;
+  };
+  const auto mixed = [&](const Mat3<S>& x, const Mat3<S>& y, const T& trace_factor) -> S {
+    if (!refined) return quadratic(x, y, trace_factor);
+    Mat3<S> ax = x, ay = y;  // a x = x - n (n^T x)
+    S normal(0.0);
+    for (int j = 0; j < 3; ++j) {
+      const S nx = x(0, j) * n[0] + x(1, j) * n[1] + x(2, j) * n[2], ny = y(0, j) * n[0] + y(1, j) * n[1] + y(2, j) * n[2];
+      for (int i = 0; i < 3; ++i) {
+        ax(i, j) -= nx * n[i];
+        ay(i, j) -= ny * n[i];
+      }
+      normal += nx * ny;
+    }
+    return quadratic(ax, ay, trace_factor) + normal * (T(2.0) * mu * mu_c / (mu + mu_c));
+  };
+  const T ml = mu * material.internal_length * material.internal_length;
+  const auto curvature = [&](const Mat3<S>& x) {
+    const S tr = trace(x);
+    return dot(x, x) * (T(0.5) * ml * (material.b[0] + material.b[1])) + dot(x, transpose(x)) * (T(0.5) * ml * (material.b[0] - material.b[1])) +
+           tr * tr * (ml * (material.b[2] - material.b[0] * T(1.0 / 3)));
   };
 
-  const Mat3<S> bs = cast<S>(b), ck = cast<S>(c) * k, bending = e * bs + ck, coupling_strain = ck * bs - S(T(2.0) * mean) * ck;
-  const S a0(h - gauss * h * h * h * T(1.0 / 12)), a1(h * h * h * T(1.0 / 12) - gauss * h * h * h * h * h * T(1.0 / 80)), a2(h * h * h * T(1.0 / 6)),
-      a3(h * h * h * h * h * T(1.0 / 80));
-  const Mat3<S> kb = k * bs;
+  Mat3<S> ck;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) ck(i, j) = k(0, j) * c(i, 0) + k(1, j) * c(i, 1) + k(2, j) * c(i, 2);
+  const Mat3<S> bending = times(e, b) + ck;
+  Mat3<S> change = times(ck, b);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) change(i, j) -= ck(i, j) * twice_mean;
+  const Mat3<S> kb = times(k, b), bb = times(bending, b);
+
+  const T h3 = h * h * h, h5 = h3 * h * h;
+  const T a0 = h - gauss * h3 * T(1.0 / 12), a1 = h3 * T(1.0 / 12) - gauss * h5 * T(1.0 / 80), a2 = h3 * T(1.0 / 6), a3 = h5 * T(1.0 / 80);
   ShellEnergy<S> w;
-  w.membrane = a0 * mixed(e, e, plane);
-  w.bending = a1 * mixed(bending, bending, plane) + a2 * mixed(e, coupling_strain, plane) +
-              a3 * mixed(bending * bs, bending * bs, refined ? plane : T(0.5) * lambda);
-  w.curvature = a0 * curvature(k) + a1 * curvature(kb) + a3 * curvature(kb * bs);
+  w.membrane = mixed(e, e, plane) * a0;
+  w.bending = mixed(bending, bending, plane) * a1 + mixed(e, change, plane) * a2 + mixed(bb, bb, refined ? plane : T(0.5) * lambda) * a3;
+  w.curvature = curvature(k) * a0 + curvature(kb) * a1 + curvature(times(kb, b)) * a3;
   return w;
 }
 

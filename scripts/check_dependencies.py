@@ -24,16 +24,16 @@ USES = {
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 
-# Foreign headers that are the business of few. A pattern is matched against the path of the included header, a place against the path of the including file.
+# Foreign headers that are the business of few (and of tests, which may use all). A pattern is matched against the path of the included header, a place against the path of the including file.
 FOREIGN = [
-    ("PETSc, MPI and MUMPS", r"(petsc.*|mpi|dmumps_c)\.h$", r"(include/karcher|src)/(solve|field)/|(include/karcher|src)/mesh/partition|tests/solve/"),
+    ("PETSc, MPI and MUMPS", r"(petsc.*|mpi|dmumps_c)\.h$", r"(include/karcher|src)/(solve|field)/|(include/karcher|src)/mesh/partition"),
     ("METIS", r"metis\.h$", r"src/mesh/partition"),
     ("TOML", r"toml\+\+/|toml\.hpp$", r"src/app/|src/main\.cpp"),
     ("expressions (muParser)", r"muParser", r"src/app/|src/main\.cpp"),
     ("the command line (CLI11)", r"CLI/", r"src/app/|src/main\.cpp"),
     ("compression and JSON", r"zlib\.h$|nlohmann/", r"(include/karcher|src)/(io|app)/|src/main\.cpp"),
-    ("the oracle ADOL-C", r"adolc/", r"tests/|bench/"),
-    ("GoogleTest", r"gtest/|gmock/", r"tests/|include/karcher/testing/"),
+    ("the oracle ADOL-C", r"adolc/", r"bench/"),
+    ("GoogleTest", r"gtest/|gmock/", r"include/karcher/testing/"),
     ("Google Benchmark", r"benchmark/", r"bench/"),
 ]
 
@@ -81,7 +81,7 @@ def wrong_includes(root):
         for match in INCLUDE.finditer(text):
             quote, name = match.groups()
             place = f"{path}:{text.count(chr(10), 0, match.start(2)) + 1}"
-            for what, header, allowed in FOREIGN:
+            for what, header, allowed in FOREIGN if path.parts[0] != "tests" else []:
                 if re.match(header, name) and not re.match(allowed, str(path)):
                     sentences.append(f"{place}: includes {name}, but this place does not know {what}.")
             target = target_of(root, path, quote, name)
@@ -123,7 +123,7 @@ def self_test():
         "src/solve/linear.hpp": "",
         "src/io/vtu.cpp": "#include <zlib.h>\n",
         "src/app/reader.cpp": "#include <toml++/toml.h>\n#include <muParser.h>\n#include <CLI/CLI.hpp>\n",
-        "tests/solve/solve_test.cpp": '#include <gtest/gtest.h>\n#include "solve/linear.hpp"\n',
+        "tests/solve/solve_test.cpp": '#include <gtest/gtest.h>\n#include <nlohmann/json.hpp>\n#include "solve/linear.hpp"\n',
     }
     bad = [
         ("include/karcher/math/bad.hpp", '#include "karcher/manifold/sphere.hpp"', "math uses manifold"),

@@ -1,0 +1,288 @@
+// From the data of a page to what is drawn at one state: places, normals, tubes, segments, ranges.
+
+import { FieldInfo, GlyphInfo, PageData, Shape } from './data';
+
+/** Faces that meet at a smaller angle than this are shaded as one smooth surface, whatever their orientation. */
+const creaseCosine = Math.cos((38 * Math.PI) / 180);
+
+export class ShapeModel {
+  readonly triangles: Uint32Array;
+  readonly triangleCells: Uint32Array;
+  readonly curveVertices: Uint32Array;
+  readonly curveStarts: Uint32Array;
+  readonly curveCells: Uint32Array;
+  /** Vertex pairs of the thin and of the strong element edges. */
+  readonly edges: Uint32Array;
+  readonly strongEdges: Uint32Array;
+  readonly low: [number, number, number] = [Infinity, Infinity, Infinity];
+  readonly high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+  private readonly cornerStarts: Uint32Array;
+  private readonly corners: Uint32Array;
+
+  constructor(readonly data: PageData, readonly shape: Shape) {
+    const none = new Uint32Array(0);
+    const get = (index: number | undefined) => (index === undefined ? none : data.integers(index));
+    this.triangles = get(shape.triangles);
+    this.triangleCells = get(shape.triangle_cells);
+    this.curveVertices = get(shape.curves);
+    this.curveStarts = startsOf(get(shape.curve_lengths));
+    this.curveCells = get(shape.curve_cells);
+    const starts = startsOf(get(shape.edge_lengths));
+    const vertices = get(shape.edges);
+    this.strongEdges = pairs(vertices, starts, 0, shape.strong_edges);
+    this.edges = pairs(vertices, starts, shape.strong_edges, starts.length - 1);
+    this.cornerStarts = new Uint32Array(shape.vertices + 1);
+    for (const v of this.triangles) ++this.cornerStarts[v + 1];
+    for (let v = 0; v < shape.vertices; ++v) this.cornerStarts[v + 1] += this.cornerStarts[v];
+    this.corners = new Uint32Array(this.triangles.length);
+    const fill = this.cornerStarts.slice(0, shape.vertices);
+    this.triangles.forEach((v, corner) => (this.corners[fill[v]++] = corner));
+    for (let s = 0; s < shape.states.length; ++s) {
+      const x = this.positions(s, 1);
+      for (let i = 0; i < x.length; ++i) {
+        if (x[i] < this.low[i % 3]) this.low[i % 3] = x[i];
+        if (x[i] > this.high[i % 3]) this.high[i % 3] = x[i];
+      }
+      if (shape.displacement.length === 0) break;
+    }
+    for (const g of shape.glyphs) {
+      const x = data.floats(g.reference);
+      for (let i = 0; i < x.length; ++i) {
+        if (x[i] < this.low[i % 3]) this.low[i % 3] = x[i];
+        if (x[i] > this.high[i % 3]) this.high[i % 3] = x[i];
+      }
+    }
+  }
+
+  get size(): number {
+    return Math.hypot(this.high[0] - this.low[0], this.high[1] - this.low[1], this.high[2] - this.low[2]) || 1;
+  }
+
+  get hasSurface(): boolean {
+    return this.triangles.length > 0;
+  }
+
+  /** Places of the vertices at a state, with displacements multiplied by `scale`. */
+  positions(state: number, scale: number): Float32Array {
+    return moved(this.data.floats(this.shape.reference), this.shape.displacement.length ? this.data.floats(this.shape.displacement[state]) : undefined, scale);
+  }
+
+  glyphPositions(g: GlyphInfo, state: number, scale: number): Float32Array {
+    return moved(this.data.floats(g.reference), g.displacement.length ? this.data.floats(g.displacement[state]) : undefined, scale);
+  }
+
+  /** Largest displacement over all states. */
+  largestDisplacement(): number {
+    let largest = 0;
+    for (const index of this.shape.displacement) {
+      const u = this.data.floats(index);
+      for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, u[i] ** 2 + u[i + 1] ** 2 + u[i + 2] ** 2);
+    }
+    return Math.sqrt(largest);
+  }
+
+  values(field: FieldInfo, state: number): Float32Array {
+    return this.data.floats(field.arrays[field.arrays.length === 1 ? 0 : state]);
+  }
+
+  /** Unindexed corner positions and normals of all triangles. Normals of neighbours are averaged up to sign, so that a one-sided surface is smooth too. */
+  corner(x: Float32Array): { position: Float32Array; normal: Float32Array } {
+    const t = this.triangles;
+    const position = new Float32Array(3 * t.length);
+    const face = new Float32Array(t.length);
+    const area = new Float32Array(t.length / 3);
+    for (let c = 0; c < t.length; ++c) {
+      const v = 3 * t[c];
+      position[3 * c] = x[v];
+      position[3 * c + 1] = x[v + 1];
+      position[3 * c + 2] = x[v + 2];
+    }
+    for (let k = 0; k < t.length; k += 3) {
+      const p = 3 * k;
+      const ax = position[p + 3] - position[p], ay = position[p + 4] - position[p + 1], az = position[p + 5] - position[p + 2];
+      const bx = position[p + 6] - position[p], by = position[p + 7] - position[p + 1], bz = position[p + 8] - position[p + 2];
+      const nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+      const n = Math.hypot(nx, ny, nz) || 1;
+      area[k / 3] = n;
+      face[k] = nx / n;
+      face[k + 1] = ny / n;
+      face[k + 2] = nz / n;
+    }
+    const normal = new Float32Array(3 * t.length);
+    for (let v = 0; v < this.shape.vertices; ++v) this.smoothAt(v, face, area, normal);
+    return { position, normal };
+  }
+
+  private smoothAt(v: number, face: Float32Array, area: Float32Array, normal: Float32Array): void {
+    const begin = this.cornerStarts[v];
+    const end = this.cornerStarts[v + 1];
+    for (let i = begin; i < end; ++i) {
+      const c = this.corners[i];
+      const f = c - (c % 3);
+      const x = face[f], y = face[f + 1], z = face[f + 2];
+      let sx = 0, sy = 0, sz = 0;
+      for (let j = begin; j < end; ++j) {
+        const g = this.corners[j] - (this.corners[j] % 3);
+        const d = face[g] * x + face[g + 1] * y + face[g + 2] * z;
+        if (Math.abs(d) < creaseCosine) continue;
+        const w = d < 0 ? -area[g / 3] : area[g / 3];
+        sx += w * face[g];
+        sy += w * face[g + 1];
+        sz += w * face[g + 2];
+      }
+      const n = Math.hypot(sx, sy, sz);
+      normal[3 * c] = n > 0 ? sx / n : x;
+      normal[3 * c + 1] = n > 0 ? sy / n : y;
+      normal[3 * c + 2] = n > 0 ? sz / n : z;
+    }
+  }
+}
+
+function moved(reference: Float32Array, displacement: Float32Array | undefined, scale: number): Float32Array {
+  if (!displacement) return reference;
+  const x = new Float32Array(reference.length);
+  for (let i = 0; i < x.length; ++i) x[i] = reference[i] + scale * displacement[i];
+  return x;
+}
+
+function startsOf(lengths: Uint32Array): Uint32Array {
+  const starts = new Uint32Array(lengths.length + 1);
+  for (let i = 0; i < lengths.length; ++i) starts[i + 1] = starts[i] + lengths[i];
+  return starts;
+}
+
+function pairs(vertices: Uint32Array, starts: Uint32Array, begin: number, end: number): Uint32Array {
+  const out: number[] = [];
+  for (let p = begin; p < end; ++p) {
+    for (let i = starts[p] + 1; i < starts[p + 1]; ++i) out.push(vertices[i - 1], vertices[i]);
+  }
+  return new Uint32Array(out);
+}
+
+/** Extent of a scalar field, leaving out what is not finite; `most` is the value that one value in a hundred exceeds. */
+export interface Extent {
+  low: number;
+  high: number;
+  few: number;
+  most: number;
+  smallestPositive: number;
+}
+
+export function extent(arrays: Float32Array[]): Extent {
+  let low = Infinity, high = -Infinity, smallestPositive = Infinity;
+  const sample: number[] = [];
+  for (const values of arrays) {
+    const stride = Math.max(1, Math.floor(values.length / 20000));
+    for (let i = 0; i < values.length; ++i) {
+      const v = values[i];
+      if (!Number.isFinite(v)) continue;
+      if (v < low) low = v;
+      if (v > high) high = v;
+      if (v > 0 && v < smallestPositive) smallestPositive = v;
+      if (i % stride === 0) sample.push(v);
+    }
+  }
+  if (low > high) return { low: 0, high: 1, few: 0, most: 1, smallestPositive: 1e-3 };
+  sample.sort((a, b) => a - b);
+  const quantile = (q: number) => sample[Math.min(sample.length - 1, Math.floor(q * sample.length))];
+  return { low, high, few: quantile(0.01), most: quantile(0.99), smallestPositive: Number.isFinite(smallestPositive) ? smallestPositive : 1e-3 };
+}
+
+/** Tubes around polylines. Rings stand on the mean direction of the two segments at a vertex, also across the cells that share it. */
+export function tubes(x: Float32Array, vertices: Uint32Array, starts: Uint32Array, cells: Uint32Array, radius: number, sides = 12) {
+  const direction = new Map<number, [number, number, number]>();
+  for (let p = 0; p + 1 < starts.length; ++p) {
+    for (let i = starts[p] + 1; i < starts[p + 1]; ++i) {
+      const a = vertices[i - 1], b = vertices[i];
+      const d = [0, 1, 2].map((k) => x[3 * b + k] - x[3 * a + k]);
+      const n = Math.hypot(d[0], d[1], d[2]) || 1;
+      for (const v of [a, b]) {
+        const sum = direction.get(v) ?? [0, 0, 0];
+        const s = sum[0] * d[0] + sum[1] * d[1] + sum[2] * d[2] < 0 ? -1 / n : 1 / n;
+        direction.set(v, [sum[0] + s * d[0], sum[1] + s * d[1], sum[2] + s * d[2]]);
+      }
+    }
+  }
+  const position: number[] = [], normal: number[] = [], vertex: number[] = [], cell: number[] = [], index: number[] = [];
+  let ring = 0;
+  for (let p = 0; p + 1 < starts.length; ++p) {
+    let e: number[] | undefined;
+    let last: number[] | undefined;
+    for (let i = starts[p]; i < starts[p + 1]; ++i) {
+      const v = vertices[i];
+      let d: number[] = [...direction.get(v)!];
+      const n = Math.hypot(d[0], d[1], d[2]) || 1;
+      const along = last ? d[0] * last[0] + d[1] * last[1] + d[2] * last[2] : 1;
+      d = d.map((c) => (along < 0 ? -c : c) / n);
+      last = d;
+      if (!e) e = Math.abs(d[2]) < 0.8 ? [0, 0, 1] : [1, 0, 0];
+      const dot = e[0] * d[0] + e[1] * d[1] + e[2] * d[2];
+      e = e.map((c, k) => c - dot * d[k]);
+      const m = Math.hypot(e[0], e[1], e[2]) || 1;
+      e = e.map((c) => c / m);
+      const f = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]];
+      for (let s = 0; s < sides; ++s) {
+        const c = Math.cos((2 * Math.PI * s) / sides), q = Math.sin((2 * Math.PI * s) / sides);
+        for (let k = 0; k < 3; ++k) {
+          const o = c * e[k] + q * f[k];
+          normal.push(o);
+          position.push(x[3 * v + k] + radius * o);
+        }
+        vertex.push(v);
+        cell.push(cells[p]);
+        if (i > starts[p]) {
+          const a = ring - sides + s, b = ring - sides + ((s + 1) % sides);
+          index.push(a, b, a + sides, b, b + sides, a + sides);
+        }
+      }
+      ring += sides;
+    }
+  }
+  return { position: new Float32Array(position), normal: new Float32Array(normal), vertex, cell, index };
+}
+
+/** An evenly spread subset of points, about `wanted` of them: points are taken in order where none is nearer than a spacing, which is found by bisection. */
+export function spread(x: Float32Array, wanted: number): Uint32Array {
+  const n = x.length / 3;
+  if (n <= wanted) return Uint32Array.from({ length: n }, (_, i) => i);
+  let size = 0;
+  for (let k = 0; k < 3; ++k) {
+    let low = Infinity, high = -Infinity;
+    for (let i = k; i < x.length; i += 3) (low = Math.min(low, x[i])), (high = Math.max(high, x[i]));
+    size = Math.max(size, high - low);
+  }
+  let small = 0, large = size || 1;
+  let best = Uint32Array.from({ length: wanted }, (_, i) => Math.floor((i * n) / wanted));
+  for (let round = 0; round < 12; ++round) {
+    const h = 0.5 * (small + large);
+    const kept = sieve(x, h, wanted);
+    if (kept.length > wanted) small = h;
+    else {
+      large = h;
+      best = Uint32Array.from(kept);
+    }
+  }
+  return best;
+}
+
+function sieve(x: Float32Array, h: number, wanted: number): number[] {
+  const boxes = new Map<string, number[]>();
+  const kept: number[] = [];
+  for (let i = 0; 3 * i < x.length && kept.length <= wanted; ++i) {
+    const p = [x[3 * i], x[3 * i + 1], x[3 * i + 2]];
+    const b = p.map((c) => Math.floor(c / h));
+    let free = true;
+    for (let dx = -1; dx <= 1 && free; ++dx)
+      for (let dy = -1; dy <= 1 && free; ++dy)
+        for (let dz = -1; dz <= 1 && free; ++dz)
+          for (const j of boxes.get(`${b[0] + dx},${b[1] + dy},${b[2] + dz}`) ?? [])
+            if (Math.hypot(x[3 * j] - p[0], x[3 * j + 1] - p[1], x[3 * j + 2] - p[2]) < h * 0.999) free = false;
+    if (!free) continue;
+    kept.push(i);
+    const key = b.join(',');
+    const box = boxes.get(key);
+    if (box) box.push(i);
+    else boxes.set(key, [i]);
+  }
+  return kept;
+}

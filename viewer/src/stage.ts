@@ -1,0 +1,384 @@
+// The picture: surface, tubes, element edges and glyphs of one state, drawn when something has changed.
+
+import {
+  BufferAttribute, BufferGeometry, Color, DataTexture, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, PerspectiveCamera, Scene, ShaderMaterial, Vector2, Vector3, Vector4, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { frame, goodDirection } from './camera';
+import { colourMap, table } from './colours';
+import { FieldInfo } from './data';
+import { Extent, extent, ShapeModel, spread, tubes } from './geometry';
+import { glyphGeometry, largestGlyph } from './glyphs';
+import { ClipPlane, glyphMaterial, lineMaterial, mapTexture, Mode, setClip, surfaceMaterial } from './shading';
+import { View } from './view';
+
+/** The numbers that the legend shows. */
+export interface ShownRange {
+  low: number;
+  high: number;
+  logarithmic: boolean;
+  above: boolean;
+  below: boolean;
+}
+
+export class Stage {
+  readonly camera = new PerspectiveCamera(26, 1, 0.1, 100);
+  private controls: OrbitControls;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly surface: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly tube: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly thin: Mesh<InstancedBufferGeometry, ShaderMaterial>;
+  private readonly strong: Mesh<InstancedBufferGeometry, ShaderMaterial>;
+  private glyph: Mesh<InstancedBufferGeometry, ShaderMaterial>;
+  private readonly extents = new Map<string, Extent>();
+  private readonly glyphSizes = new Map<string, number>();
+  private readonly chosen = new Map<string, Uint32Array>();
+  private tubeVertices: number[] = [];
+  private tubeCells: number[] = [];
+  private texture?: DataTexture;
+  private textureName = '';
+  private drawn = { places: '', values: '', glyphs: '' };
+  private edgeLength = 1;
+  private pending = false;
+  private ink = new Color(0x000000);
+  onRender: () => void = () => undefined;
+
+  constructor(readonly canvas: HTMLCanvasElement, readonly model: ShapeModel, private view: View) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: false });
+    this.controls = this.makeControls();
+    this.surface = new Mesh(new BufferGeometry(), surfaceMaterial());
+    this.tube = new Mesh(new BufferGeometry(), surfaceMaterial());
+    this.thin = new Mesh(new InstancedBufferGeometry(), lineMaterial());
+    this.strong = new Mesh(new InstancedBufferGeometry(), lineMaterial());
+    this.glyph = new Mesh(new InstancedBufferGeometry(), glyphMaterial());
+    for (const mesh of [this.surface, this.tube, this.thin, this.strong, this.glyph]) {
+      mesh.frustumCulled = false;
+      this.scene.add(mesh);
+    }
+    this.thin.renderOrder = 1;
+    this.strong.renderOrder = 2;
+  }
+
+  /** OrbitControls turn about the camera's upward direction at their birth. */
+  private makeControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.enableDamping = false;
+    controls.zoomToCursor = true;
+    controls.addEventListener('change', () => this.request());
+    return controls;
+  }
+
+  /** Whether this browser can draw. */
+  static possible(): boolean {
+    try {
+      return document.createElement('canvas').getContext('webgl2') !== null;
+    } catch {
+      return false;
+    }
+  }
+
+  setTheme(ground: string, ink: string): void {
+    this.scene.background = new Color(ground);
+    this.ink = new Color(ink);
+    this.request();
+  }
+
+  resize(width: number, height: number, pixelRatio: number): void {
+    this.renderer.setPixelRatio(pixelRatio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(1, height);
+    this.camera.updateProjectionMatrix();
+    this.request();
+  }
+
+  up(): Vector3 {
+    return this.model.shape.flat ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+  }
+
+  /** Looks from `direction` (or from where most is seen) at the whole shape, in all its states. */
+  fit(direction?: [number, number, number], up?: [number, number, number]): void {
+    const { model, view } = this;
+    const last = model.positions(model.shape.states.length - 1, view.scale);
+    const shown = [last];
+    if (model.shape.displacement.length) shown.push(model.positions(0, view.scale));
+    for (const g of model.shape.glyphs) if (g.name === view.glyphs) shown.push(model.glyphPositions(g, 0, view.scale));
+    const upward = up ? new Vector3(...up) : this.up();
+    const from = direction ? new Vector3(...direction) : model.shape.flat ? new Vector3(0, 0, 1) : goodDirection(last, upward);
+    const target = frame(this.camera, shown, from, upward, model.shape.flat ? 1.14 : 1.08);
+    this.controls.dispose();
+    this.controls = this.makeControls();
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.request();
+  }
+
+  field(name: string): FieldInfo | undefined {
+    return this.model.shape.fields.find((f) => f.name === name);
+  }
+
+  /** Draws soon; many requests make one drawing. */
+  request(): void {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => {
+      this.pending = false;
+      this.render();
+    });
+  }
+
+  update(view: View): void {
+    this.view = view;
+    this.request();
+  }
+
+  /** Range of the colours at the moment; undefined where no number is shown. */
+  range(): ShownRange | undefined {
+    const field = this.field(this.view.field);
+    if (!field || field.kind !== 'scalar') return undefined;
+    const state = this.view.range === 'step' ? this.view.state : -1;
+    const key = `${field.name}/${field.arrays.length === 1 ? -1 : state}`;
+    let e = this.extents.get(key);
+    if (!e) {
+      const states = state >= 0 ? [state] : field.arrays.map((_, s) => s);
+      e = extent(states.map((s) => this.model.values(field, s)));
+      this.extents.set(key, e);
+    }
+    let low = e.low, high = e.high;
+    const clip = this.view.clipOutliers && e.high > e.low;
+    if (clip && e.high - e.most > 0.5 * (e.high - e.few) && e.most > e.few) high = e.most;
+    if (clip && e.few - e.low > 0.5 * (e.most - e.low) && e.most > e.few) low = e.few;
+    const logarithmic = this.view.logarithmic && e.high > 0;
+    if (logarithmic) low = Math.max(low, e.smallestPositive, high * 1e-8);
+    if (colourMap(this.view.map).diverging && !logarithmic) {
+      high = Math.max(Math.abs(low), Math.abs(high));
+      low = -high;
+    }
+    return { low, high, logarithmic, above: high < e.high, below: low > e.low && !(logarithmic && e.low <= 0) };
+  }
+
+  render(): void {
+    this.refresh();
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = Math.max(distance * 0.005, distance - 30 * this.model.size);
+    this.camera.far = distance + 30 * this.model.size;
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+    this.onRender();
+  }
+
+  /** The picture as it is seen, at another size (finer than the screen); the caller gets a canvas of its own. `refit` may place the camera for that size. */
+  picture(width: number, height: number, refit?: () => void): HTMLCanvasElement {
+    const old = { width: this.canvas.clientWidth, height: this.canvas.clientHeight, ratio: this.renderer.getPixelRatio(), aspect: this.camera.aspect };
+    const out = document.createElement('canvas');
+    out.width = width;
+    out.height = height;
+    this.renderer.setPixelRatio(2);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    refit?.();
+    // What was in sight stays in sight.
+    const fov = this.camera.fov;
+    if (!refit && this.camera.aspect < old.aspect) this.camera.fov = (360 / Math.PI) * Math.atan((Math.tan((fov * Math.PI) / 360) * old.aspect) / this.camera.aspect);
+    this.render();
+    const context = out.getContext('2d')!;
+    context.imageSmoothingQuality = 'high';
+    context.drawImage(this.canvas, 0, 0, width, height);
+    this.camera.fov = fov;
+    this.camera.aspect = old.aspect;
+    this.renderer.setPixelRatio(old.ratio);
+    this.renderer.setSize(old.width, old.height, false);
+    this.render();
+    return out;
+  }
+
+  private clipPlane(): ClipPlane {
+    const k = ['x', 'y', 'z'].indexOf(this.view.clip);
+    if (k < 0) return { normal: [0, 0, 0], offset: 1 };
+    const at = this.model.low[k] + this.view.clipAt * (this.model.high[k] - this.model.low[k]);
+    const sign = this.view.clipFlip ? -1 : 1;
+    const normal: [number, number, number] = [0, 0, 0];
+    normal[k] = sign;
+    return { normal, offset: sign * at };
+  }
+
+  private refresh(): void {
+    const { view, model } = this;
+    const places = `${model.shape.displacement.length ? view.state : 0}/${view.scale}`;
+    if (places !== this.drawn.places) {
+      this.place();
+      this.drawn = { places, values: '', glyphs: '' };
+    }
+    const values = `${view.field}/${view.state}`;
+    if (values !== this.drawn.values) {
+      this.paint();
+      this.drawn.values = values;
+    }
+    const glyphs = `${view.glyphs}/${view.state}/${view.scale}/${view.glyphSize}/${view.glyphDensity}/${view.field}`;
+    if (glyphs !== this.drawn.glyphs) {
+      this.plant();
+      this.drawn.glyphs = glyphs;
+    }
+    if (this.textureName !== view.map) {
+      this.texture?.dispose();
+      this.texture = mapTexture(table(colourMap(view.map)));
+      this.textureName = view.map;
+    }
+    const field = this.field(view.field);
+    const range = this.range();
+    const plane = this.clipPlane();
+    for (const mesh of [this.surface, this.tube]) {
+      const u = mesh.material.uniforms;
+      u.mode.value = !field ? Mode.plain : field.kind === 'scalar' ? Mode.scalar : Mode.direction;
+      u.map.value = this.texture;
+      if (range) {
+        const bounds = range.logarithmic ? [Math.log(range.low), Math.log(range.high)] : [range.low, range.high];
+        (u.range.value as Vector3).set(bounds[0], bounds[1] > bounds[0] ? bounds[1] : bounds[0] + 1, range.logarithmic ? 1 : 0);
+      }
+      u.opacity.value = view.opacity;
+      mesh.material.transparent = view.opacity < 1;
+      mesh.material.depthWrite = view.opacity >= 1;
+      setClip(mesh.material, plane);
+    }
+    this.surface.visible = view.surface && model.hasSurface;
+    this.tube.visible = view.surface && model.curveVertices.length > 0;
+    this.thin.visible = view.edges;
+    this.strong.visible = view.edges;
+    this.glyph.visible = view.glyphs !== '';
+    setClip(this.glyph.material, plane);
+    const buffer = this.renderer.getDrawingBufferSize(new Vector2());
+    const ratio = this.renderer.getPixelRatio();
+    const pixels = (this.edgeLength * buffer.y) / (2 * Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.position.distanceTo(this.controls.target)) / ratio;
+    const faint = Math.min(0.42, Math.max(0.10, 0.03 * (pixels - 2)));
+    for (const [mesh, alpha, width] of [
+      [this.thin, faint, 1.0],
+      [this.strong, 0.85, 1.6],
+    ] as const) {
+      const u = mesh.material.uniforms;
+      (u.ink.value as Vector4).set(this.ink.r, this.ink.g, this.ink.b, view.surface ? alpha : Math.max(alpha, 0.6));
+      u.width.value = width * ratio;
+      (u.screen.value as Vector3).set(buffer.x, buffer.y, 1);
+      setClip(mesh.material, plane);
+    }
+  }
+
+  private place(): void {
+    const { model, view } = this;
+    const x = model.positions(view.state, view.scale);
+    if (model.hasSurface) {
+      const { position, normal } = model.corner(x);
+      const g = this.surface.geometry;
+      g.setAttribute('position', new BufferAttribute(position, 3));
+      g.setAttribute('normal', new BufferAttribute(normal, 3));
+    }
+    if (model.curveVertices.length) {
+      const t = tubes(x, model.curveVertices, model.curveStarts, model.curveCells, 0.006 * model.size);
+      const g = new BufferGeometry();
+      g.setAttribute('position', new BufferAttribute(t.position, 3));
+      g.setAttribute('normal', new BufferAttribute(t.normal, 3));
+      g.setIndex(t.index);
+      this.tubeVertices = t.vertex;
+      this.tubeCells = t.cell;
+      this.tube.geometry.dispose();
+      this.tube.geometry = g;
+    }
+    this.line(this.thin, x, model.edges);
+    this.line(this.strong, x, model.strongEdges);
+    this.edgeLength = this.meanCellSize(x);
+  }
+
+  /** Side of a square as large as the mean cell, for the strength of the edges on the screen. */
+  private meanCellSize(x: Float32Array): number {
+    const t = this.model.triangles;
+    let area = 0;
+    for (let i = 0; i < t.length; i += 3) {
+      const [a, b, c] = [3 * t[i], 3 * t[i + 1], 3 * t[i + 2]];
+      const u = [x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]], v = [x[c] - x[a], x[c + 1] - x[a + 1], x[c + 2] - x[a + 2]];
+      area += 0.5 * Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    }
+    return t.length ? Math.sqrt(area / Math.max(1, this.model.shape.cells)) : this.model.size;
+  }
+
+  private line(mesh: Mesh<InstancedBufferGeometry, ShaderMaterial>, x: Float32Array, ends: Uint32Array): void {
+    const from = new Float32Array((3 * ends.length) / 2), to = new Float32Array((3 * ends.length) / 2);
+    for (let i = 0; i < ends.length; i += 2) {
+      for (let k = 0; k < 3; ++k) {
+        from[(3 * i) / 2 + k] = x[3 * ends[i] + k];
+        to[(3 * i) / 2 + k] = x[3 * ends[i + 1] + k];
+      }
+    }
+    const g = new InstancedBufferGeometry();
+    g.setAttribute('position', new BufferAttribute(new Float32Array([0, -0.5, 0, 1, -0.5, 0, 1, 0.5, 0, 0, 0.5, 0]), 3));
+    g.setIndex([0, 1, 2, 0, 2, 3]);
+    g.setAttribute('from', new InstancedBufferAttribute(from, 3));
+    g.setAttribute('to', new InstancedBufferAttribute(to, 3));
+    g.instanceCount = ends.length / 2;
+    mesh.geometry.dispose();
+    mesh.geometry = g;
+  }
+
+  private paint(): void {
+    const { model, view } = this;
+    const field = this.field(view.field);
+    const fill = (geometry: BufferGeometry, vertices: ArrayLike<number>, cellOf: (corner: number) => number) => {
+      const scalar = new Float32Array(2 * vertices.length), direction = new Float32Array(3 * vertices.length);
+      if (field) {
+        const values = model.values(field, view.state);
+        for (let i = 0; i < vertices.length; ++i) {
+          const at = field.at === 'cell' ? cellOf(i) : vertices[i];
+          if (field.kind === 'scalar') {
+            const fine = Number.isFinite(values[at]);
+            scalar[2 * i] = fine ? values[at] : 0;
+            scalar[2 * i + 1] = fine ? 1 : 0;
+          } else {
+            const fine = Number.isFinite(values[3 * at]) && Number.isFinite(values[3 * at + 1]) && Number.isFinite(values[3 * at + 2]);
+            scalar[2 * i + 1] = fine ? 1 : 0;
+            if (fine) direction.set(values.subarray(3 * at, 3 * at + 3), 3 * i);
+          }
+        }
+      }
+      geometry.setAttribute('scalar', new BufferAttribute(scalar, 2));
+      geometry.setAttribute('direction', new BufferAttribute(direction, 3));
+    };
+    if (model.hasSurface) fill(this.surface.geometry, model.triangles, (corner) => model.triangleCells[(corner / 3) | 0]);
+    if (model.curveVertices.length) fill(this.tube.geometry, this.tubeVertices, (i) => this.tubeCells[i]);
+  }
+
+  private plant(): void {
+    const { model, view } = this;
+    const g = model.shape.glyphs.find((set) => set.name === view.glyphs);
+    if (!g) return;
+    const x = model.glyphPositions(g, view.state, view.scale);
+    const wanted = Math.round(view.glyphDensity);
+    const key = `${g.name}/${wanted}`;
+    let chosen = this.chosen.get(key);
+    if (!chosen) {
+      chosen = spread(model.data.floats(g.reference), wanted);
+      this.chosen.set(key, chosen);
+    }
+    const values = model.data.floats(g.arrays[g.arrays.length === 1 ? 0 : view.state]);
+    let largest = this.glyphSizes.get(g.name);
+    if (largest === undefined) {
+      largest = Math.max(...g.arrays.map((index) => largestGlyph(g.kind, model.data.floats(index))));
+      this.glyphSizes.set(g.name, largest);
+    }
+    const size = (view.glyphSize * this.glyphSpacing(model.data.floats(g.reference), chosen)) / largest;
+    const geometry = glyphGeometry(g.kind, x, values, chosen, size, this.field(view.field)?.kind !== 'direction', [0.16, 0.17, 0.2]);
+    this.glyph.geometry.dispose();
+    this.glyph.geometry = geometry;
+  }
+
+  /** Distance between neighbours if the chosen points were spread evenly over the extent of the points. */
+  private glyphSpacing(x: Float32Array, chosen: Uint32Array): number {
+    const sides = [0, 1, 2].map((k) => {
+      let low = Infinity, high = -Infinity;
+      for (const i of chosen) (low = Math.min(low, x[3 * i + k])), (high = Math.max(high, x[3 * i + k]));
+      return high > low ? high - low : 0;
+    });
+    sides.sort((a, b) => b - a);
+    const n = Math.max(1, chosen.length);
+    if (this.model.shape.flat || (this.model.hasSurface && sides[2] === 0)) return Math.sqrt((sides[0] * Math.max(sides[1], 0.02 * sides[0])) / n);
+    if (!this.model.hasSurface) return Math.max(sides[0] / n, 0.05 * sides[0]);
+    return Math.min(0.09 * sides[0], Math.cbrt((sides[0] * Math.max(sides[1], 0.1 * sides[0]) * Math.max(sides[2], 0.1 * sides[0])) / n));
+  }
+}

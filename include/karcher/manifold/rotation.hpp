@@ -14,6 +14,8 @@
 
 #include <numbers>
 
+#include "karcher/error.hpp"
+#include "karcher/manifold/polar.hpp"
 #include "karcher/manifold/quaternion.hpp"
 #include "karcher/manifold/sphere.hpp"
 
@@ -59,6 +61,13 @@ struct Rotation {
   template <class T>
   static Mat3<T> to_matrix(const Vec<T, 4>& p) {
     return rotation_matrix(p);
+  }
+  /// The rotation closest to a matrix (polar.hpp).
+  /// \throws InputError where there is none or more than one, e.g. at a reflection.
+  static Vec<double, 4> from_matrix(const Mat3<double>& a) {
+    const PolarFactor<double> f = polar_factor(a);
+    if (!f.defined) throw InputError("The matrix has no unique closest rotation.");
+    return f.q;
   }
   /// The k-th director: column k of the rotation matrix.
   template <class T>

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "karcher/math/pack_functions.hpp"
 #include "karcher/math/scalar.hpp"
 
 namespace karcher {
@@ -66,6 +67,17 @@ Pack<W> lanewise(G g, const Pack<W>& x) {
   return r;
 }
 
+inline double plain_exp(double x) { return std::exp(x); }
+inline double plain_log(double x) { return std::log(x); }
+template <int W>
+Pack<W> plain_exp(const Pack<W>& x) {
+  return pack_functions::exp(x);
+}
+template <int W>
+Pack<W> plain_log(const Pack<W>& x) {
+  return pack_functions::log(x);
+}
+
 }  // namespace function_detail
 
 /// f, f', ..., f^(Count - 1) at any scalar.
@@ -103,7 +115,7 @@ struct Exp {
   template <int Order, class T>
   Derivatives<T, Order> derivatives(const T& x) const {
     Derivatives<T, Order> f;
-    f.fill(lanewise([](double y) { return std::exp(y); }, x));
+    f.fill(plain_exp(x));
     return f;
   }
 };
@@ -112,7 +124,7 @@ struct Log {
   template <int Order, class T>
   Derivatives<T, Order> derivatives(const T& x) const {
     Derivatives<T, Order> f;
-    f[0] = lanewise([](double y) { return std::log(y); }, x);
+    f[0] = plain_log(x);
     if constexpr (Order > 0) {
       f[1] = T(1.0) / x;
       for (std::size_t n = 1; n < Order; ++n) f[n + 1] = f[n] * f[1] * T(-static_cast<double>(n));

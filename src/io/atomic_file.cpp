@@ -37,14 +37,6 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
   }
 }
 
-/// The rename itself is on the disk only when the directory is. File systems that cannot flush a directory say EINVAL, which is no error here.
-void flush_directory(const std::filesystem::path& directory) {
-  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
@@ -59,7 +51,6 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
   if (closed != 0) refuse(path, errno);
   if (::rename(file.path.c_str(), path.c_str()) != 0) refuse(path, errno);
   file.keep = true;
-  flush_directory(directory);
 }
 
 std::string read_whole(const std::filesystem::path& path) {

@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
 #include "io/base64.hpp"
-#include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/summary.hpp"
 
@@ -70,21 +68,6 @@ std::string file_name_of(std::string_view name) {
   return s;
 }
 
-/// Value of an attribute in a line that this file wrote; nothing where it is missing.
-std::string_view attribute(std::string_view line, std::string_view key) {
-  const std::string start = fmt::format(" {}=\"", key);
-  const std::size_t begin = line.find(start);
-  if (begin == std::string_view::npos) return {};
-  line.remove_prefix(begin + start.size());
-  return line.substr(0, line.find('"'));
-}
-
-template <class T>
-bool parse(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && !text.empty();
-}
-
 }  // namespace
 
 void write_vtu(const std::filesystem::path& file, const OutputPart& part, double t) {
@@ -121,38 +104,26 @@ void write_vtu(const std::filesystem::path& file, const OutputPart& part, double
 VtuSeries::VtuSeries(std::filesystem::path directory, const std::string& stem) : directory_(std::move(directory)), stem_(file_name_of(stem)) {}
 
 void VtuSeries::resume(int first_state) {
-  const std::filesystem::path collection = directory_ / (stem_ + ".pvd");
   entries_.clear();
+  const std::filesystem::path collection = directory_ / (stem_ + ".pvd");
   if (!std::filesystem::exists(collection)) return;
-  const std::string content = read_whole(collection);
-  std::string_view rest = content;
-  while (!rest.empty()) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-    if (line.find("<DataSet") == std::string_view::npos) continue;
-    Entry e;
-    e.region = attribute(line, "name");
-    e.file = attribute(line, "file");
-    if (!parse(attribute(line, "timestep"), e.t) || !parse(attribute(line, "part"), e.part) || !parse(attribute(line, "state"), e.state) ||
-        e.file.empty())
-      throw InputError(fmt::format("The collection {} was not written by Karcher; it cannot be continued.", collection.string()));
-    if (e.state < first_state) entries_.push_back(std::move(e));
-  }
+  entries_ = read_collection(collection);
+  std::erase_if(entries_, [&](const VtuEntry& e) { return e.state >= first_state; });
 }
 
 void VtuSeries::write(int state, double t, const std::vector<OutputPart>& parts) {
-  std::erase_if(entries_, [&](const Entry& e) { return e.state == state; });
+  std::erase_if(entries_, [&](const VtuEntry& e) { return e.state == state; });
   std::vector<std::string> names;
   for (const OutputPart& p : parts) names.push_back(file_name_of(p.region));
   names = distinct_names(std::move(names));
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    Entry e{state, static_cast<int>(i), t, names[i], fmt::format("{}_{:04}{}{}.vtu", stem_, state, i == 0 ? "" : ".", i == 0 ? "" : names[i])};
+    VtuEntry e{state, static_cast<int>(i), t, names[i], fmt::format("{}_{:04}{}{}.vtu", stem_, state, i == 0 ? "" : ".", i == 0 ? "" : names[i])};
     write_vtu(directory_ / e.file, parts[i], t);
     entries_.push_back(std::move(e));
   }
   // `state` is ours, other readers skip it; fmt prints t so that it reads back to the same double.
   std::string s = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
-  for (const Entry& e : entries_)
+  for (const VtuEntry& e : entries_)
     s += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" state=\"{}\" file=\"{}\"/>\n", e.t, e.part, e.region, e.state,
                      e.file);
   s += "  </Collection>\n</VTKFile>\n";

@@ -81,24 +81,24 @@ TEST(Checkpoint, BringsBackEveryBit) {
   }
 }
 
-TEST(Checkpoint, EveryTruncationIsRefused) {
+TEST(Checkpoint, TruncationIsRefusedWhereverItIs) {
   const TemporaryDirectory directory;
   const auto fields = two_fields(1);
   write_checkpoint(directory / "whole", random_checkpoint(fields), fields, 5);
   const std::string content = read_whole(directory / "whole");
-  for (std::size_t size = 0; size < content.size(); ++size) {
+  for (std::size_t size = 0; size < content.size(); size += size < 150 ? 1 : 7) {
     std::ofstream(directory / "part", std::ios::binary) << content.substr(0, size);
     const std::string sentence = refusal(directory / "part", fields, 5);
     EXPECT_TRUE(contains(sentence, size == 0 ? "not a checkpoint" : "truncated")) << size << ": " << sentence;
   }
 }
 
-TEST(Checkpoint, EveryFlippedByteIsRefused) {
+TEST(Checkpoint, AFlippedByteIsRefusedWhereverItIs) {
   const TemporaryDirectory directory;
   const auto fields = two_fields(1);
   write_checkpoint(directory / "whole", random_checkpoint(fields), fields, 5);
   const std::string content = read_whole(directory / "whole");
-  for (std::size_t i = 0; i < content.size(); ++i) {
+  for (std::size_t i = 0; i < content.size(); i += i < 150 ? 1 : 7) {
     std::string damaged = content;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
     std::ofstream(directory / "damaged", std::ios::binary) << damaged;

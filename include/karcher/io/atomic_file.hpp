@@ -8,7 +8,7 @@
 
 namespace karcher {
 
-/// Writes to a temporary file in the same directory, flushes it to the disk, renames it over `path` and flushes the directory.
+/// Writes to a temporary file in the same directory, flushes it to the disk and renames it over `path`.
 /// \throws Error naming the file and what the system said; `path` is unchanged then and no temporary file is left.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 

@@ -20,6 +20,19 @@ const std::vector<int>& vtk_node_order(CellKind kind, int order);
 
 /// Writes one part atomically. t is stored as field data "TimeValue".
 void write_vtu(const std::filesystem::path& file, const OutputPart& part, double t);
+/// Reads back what write_vtu wrote, bit for bit (the region's name stands in the collection only). \throws InputError for any other file, also a damaged one.
+OutputPart read_vtu(const std::filesystem::path& file);
+
+/// One file of a collection.
+struct VtuEntry {
+  int state = 0, part = 0;
+  double t = 0;
+  std::string region;  ///< of the part, without the characters that file names may not have
+  std::string file;    ///< relative to the collection
+};
+
+/// What a .pvd written by VtuSeries lists, in the order of states and parts. \throws InputError if it is missing or was not written by VtuSeries.
+std::vector<VtuEntry> read_collection(const std::filesystem::path& file);
 
 /// The files of a run: <directory>/<stem>.pvd and <directory>/<stem>_0000.vtu, <stem>_0000.<region>.vtu for further parts.
 class VtuSeries {
@@ -27,18 +40,13 @@ class VtuSeries {
   explicit VtuSeries(std::filesystem::path directory, const std::string& stem = "solution");
   /// Continues the collection of an interrupted run: keeps its entries of states before `first_state`. \throws InputError if the .pvd is not ours.
   void resume(int first_state);
-  /// Writes state number `state` (0: initial configuration, then written load steps) and updates the collection atomically.
+  /// Writes state number `state` (0: initial configuration, k: end of load step k) and updates the collection atomically.
   void write(int state, double t, const std::vector<OutputPart>& parts);
 
  private:
-  struct Entry {
-    int state = 0, part = 0;
-    double t = 0;
-    std::string region, file;
-  };
   std::filesystem::path directory_;
   std::string stem_;
-  std::vector<Entry> entries_;
+  std::vector<VtuEntry> entries_;
 };
 
 }  // namespace karcher

@@ -9,10 +9,12 @@
 /// Notation as in Absil, Mahony, Sepulchre, "Optimization Algorithms on Matrix Manifolds" (2008): p, q points; a, b tangent vectors at p in ambient
 /// coordinates; v coordinates of a tangent vector in the frame E(p), whose columns are orthonormal in the metric at p.
 
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <string_view>
 
+#include "karcher/math/jet.hpp"
 #include "karcher/math/tensor.hpp"
 
 namespace karcher {
@@ -50,6 +52,18 @@ template <class M>
 concept HasInjectivityRadius = requires {
   { M::injectivity_radius } -> std::convertible_to<double>;
 };
+template <class M>
+concept AnyScalar = requires(Point<M, Jet<double, 2>> p) {
+  M::exp(p, p);
+  M::log(p, p);
+  M::inner(p, p, p);
+  M::frame(p);
+};
+template <class M>
+concept ProjectionIsWhole = requires(Point<M> p) {
+  M::project(p);
+}
+== requires(Point<M> p) { M::chord(p, p); };
 }  // namespace manifold_detail
 
 /// M::name                     std::string_view, as problem files say it
@@ -62,6 +76,7 @@ concept HasInjectivityRadius = requires {
 /// Optional:
 /// M::project(x)               closest point of the manifold to an ambient vector (makes the projection rule available)
 /// M::chord(q, p)              tangent vector at q that is the gradient in q of -1/2 |p - q|^2 (ambient): the projection of p to T_qM; comes with project
+/// M::dist(p, q), M::defect(x), M::make_point(x, p)   at double: see distance() below and any_manifold.hpp
 template <class M>
 concept Manifold = manifold_detail::HasName<M> && manifold_detail::HasDimensions<M> && manifold_detail::HasExp<M> && manifold_detail::HasLog<M> &&
     manifold_detail::HasInner<M> && manifold_detail::HasFrame<M> && manifold_detail::HasInjectivityRadius<M>;
@@ -71,6 +86,38 @@ concept HasProjection = Manifold<M> && requires(Point<M> p) {
   { M::project(p) } -> std::same_as<Point<M>>;
   { M::chord(p, p) } -> std::same_as<Point<M>>;
 };
+
+/// One sentence for every member that M lacks: `static_assert(CheckManifold<M>::passed)` says what a failed `Manifold<M>` does not.
+template <class M>
+struct CheckManifold {
+  static_assert(manifold_detail::HasName<M>, "A manifold needs `static constexpr std::string_view name`.");
+  static_assert(manifold_detail::HasDimensions<M>, "A manifold needs `static constexpr int ambient` and `static constexpr int dim`.");
+  static_assert(manifold_detail::HasInjectivityRadius<M>,
+                "A manifold needs `static constexpr double injectivity_radius` (infinity where there is no cut locus).");
+  static_assert(manifold_detail::HasExp<M>,
+                "A manifold needs `template <class T> static Vec<T, ambient> exp(const Vec<T, ambient>& p, const Vec<T, ambient>& a)`.");
+  static_assert(manifold_detail::HasLog<M>,
+                "A manifold needs `template <class T> static Vec<T, ambient> log(const Vec<T, ambient>& p, const Vec<T, ambient>& q)`.");
+  static_assert(
+      manifold_detail::HasInner<M>,
+      "A manifold needs `template <class T> static T inner(const Vec<T, ambient>& p, const Vec<T, ambient>& a, const Vec<T, ambient>& b)`.");
+  static_assert(manifold_detail::HasFrame<M>, "A manifold needs `template <class T> static Mat<T, ambient, dim> frame(const Vec<T, ambient>& p)`.");
+  static_assert(manifold_detail::AnyScalar<M>,
+                "exp, log, inner and frame of a manifold must be templates over the scalar: jets and packs run through them.");
+  static_assert(manifold_detail::ProjectionIsWhole<M>, "A manifold has both project(x) and chord(q, p), or neither.");
+  static constexpr bool passed = Manifold<M>;
+};
+
+/// Riemannian distance: M::dist where it is written, else the length of log.
+template <class M>
+double distance(const Point<M>& p, const Point<M>& q) {
+  if constexpr (requires { M::dist(p, q); }) {
+    return M::dist(p, q);
+  } else {
+    const Point<M> a = M::log(p, q);
+    return std::sqrt(M::inner(p, a, a));
+  }
+}
 
 /// Point with the coordinates v in the frame at p: exp_p(E(p) v). This is the retraction that the solver steps with.
 template <class M, class T>

@@ -12,7 +12,6 @@
 #include "io/judge.hpp"
 #include "io/temporary_directory.hpp"
 #include "karcher/error.hpp"
-#include "karcher/io/atomic_file.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/quadrature.hpp"
 
@@ -245,48 +244,6 @@ TEST(Vtu, NamesMayHoldAnyCharacter) {
   part.point_data[0].name = "<u & \"v\">";
   write_vtu(directory / "names.vtu", part, 0);
   EXPECT_EQ(judge({directory / "names.vtu"})[0]["point_data"], nlohmann::json({{"<u & \"v\">", 1}}));
-}
-
-TEST(Vtu, IsReadBackAsItWasWritten) {
-  const TemporaryDirectory directory;
-  for (const CellKind kind : kinds)
-    for (int p = 1; p <= 3; ++p) {
-      OutputPart part{"all", dimension(kind), p, {}, {}, {{"u & v", 1, {}}}, {{"density", 2, {0.1, -0.0, 5e-324, 1e300}}}};
-      append_cell(part, kind, {p, dimension(kind), 0});
-      append_cell(part, kind, {p, dimension(kind), 2});
-      write_vtu(directory / "a.vtu", part, 0);
-      const OutputPart back = read_vtu(directory / "a.vtu");
-      EXPECT_EQ(back.dim, part.dim);
-      EXPECT_EQ(back.order, p);
-      ASSERT_EQ(back.points.size(), part.points.size());
-      for (std::size_t n = 0; n < part.points.size(); ++n) EXPECT_EQ(back.points[n].e, part.points[n].e);
-      ASSERT_EQ(back.cells.size(), 2U);
-      EXPECT_EQ(back.cells[1].kind, kind);
-      EXPECT_EQ(back.cells[1].nodes, part.cells[1].nodes);
-      ASSERT_EQ(back.point_data.size(), 1U);
-      EXPECT_EQ(back.point_data[0].name, "u & v");
-      EXPECT_EQ(back.point_data[0].values, part.point_data[0].values);
-      ASSERT_EQ(back.cell_data.size(), 1U);
-      EXPECT_EQ(back.cell_data[0].components, 2);
-      EXPECT_EQ(back.cell_data[0].values, part.cell_data[0].values);
-    }
-  const OutputPart many = cloud(70001, std::vector<double>(70001, 1.0 / 3));
-  write_vtu(directory / "many.vtu", many, 0);
-  EXPECT_EQ(read_vtu(directory / "many.vtu").point_data[0].values, many.point_data[0].values);
-}
-
-TEST(Vtu, DamagedAndForeignFilesAreRefused) {
-  const TemporaryDirectory directory;
-  write_vtu(directory / "a.vtu", cloud(3, {1, 2, 3}), 0);
-  const std::string content = read_whole(directory / "a.vtu");
-  for (std::size_t size = 0; size + 1 < content.size(); size += 7) {
-    std::ofstream(directory / "b.vtu") << content.substr(0, size);
-    EXPECT_THROW(read_vtu(directory / "b.vtu"), InputError) << size;
-  }
-  std::string other = content;
-  other.replace(other.find("\"Int64\""), 7, "\"Int32\"");
-  std::ofstream(directory / "b.vtu") << other;
-  EXPECT_THROW(read_vtu(directory / "b.vtu"), InputError);
 }
 
 TEST(VtuSeries, TheCollectionTellsTheTimeOfEveryPart) {

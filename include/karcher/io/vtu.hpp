@@ -20,8 +20,6 @@ const std::vector<int>& vtk_node_order(CellKind kind, int order);
 
 /// Writes one part atomically. t is stored as field data "TimeValue".
 void write_vtu(const std::filesystem::path& file, const OutputPart& part, double t);
-/// Reads back what write_vtu wrote, bit for bit (the region's name stands in the collection only). \throws InputError for any other file, also a damaged one.
-OutputPart read_vtu(const std::filesystem::path& file);
 
 /// One file of a collection.
 struct VtuEntry {

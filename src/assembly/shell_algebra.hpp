@@ -62,8 +62,8 @@ KARCHER_SHELL_INLINE Mat3<T> full(const Sym3<T>& s) {
 /// tr(A) I - sym A.
 template <class T>
 KARCHER_SHELL_INLINE Sym3<T> trace_minus(const Mat3<T>& a) {
-  return {a(1, 1) + a(2, 2), T(-0.5) * (a(0, 1) + a(1, 0)), T(-0.5) * (a(0, 2) + a(2, 0)), a(0, 0) + a(2, 2), T(-0.5) * (a(1, 2) + a(2, 1)),
-          a(0, 0) + a(1, 1)};
+  return {a(1, 1) + a(2, 2), T(-0.5) * (a(0, 1) + a(1, 0)), T(-0.5) * (a(0, 2) + a(2, 0)),
+          a(0, 0) + a(2, 2), T(-0.5) * (a(1, 2) + a(2, 1)), a(0, 0) + a(1, 1)};
 }
 template <class T>
 KARCHER_SHELL_INLINE Sym3<T> cofactor(const Sym3<T>& s) {
@@ -107,7 +107,8 @@ KARCHER_SHELL_INLINE Mat3<T> hat_times(const Vec3<T>& k, const Mat3<T>& m) {
 template <class T>
 KARCHER_SHELL_INLINE Mat3<T> rotation_matrix(const Vec<T, 4>& q) {
   const T x2 = q[1] + q[1], y2 = q[2] + q[2], z2 = q[3] + q[3];
-  const T xx = q[1] * x2, yy = q[2] * y2, zz = q[3] * z2, xy = q[1] * y2, xz = q[1] * z2, yz = q[2] * z2, wx = q[0] * x2, wy = q[0] * y2, wz = q[0] * z2;
+  const T xx = q[1] * x2, yy = q[2] * y2, zz = q[3] * z2, xy = q[1] * y2, xz = q[1] * z2, yz = q[2] * z2, wx = q[0] * x2, wy = q[0] * y2,
+          wz = q[0] * z2;
   const T one(1.0);
   return {{one - (yy + zz), xy - wz, xz + wy, xy + wz, one - (xx + zz), yz - wx, xz - wy, yz + wx, one - (xx + yy)}};
 }

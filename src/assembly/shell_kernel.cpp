@@ -30,7 +30,8 @@ std::array<double, 4> quaternion(const Mat3<double>& r) {
 
 }  // namespace
 
-void store_point(double* point, int lane, const Mat<double, 2, 2>& jacobian, const Mat3<double>& frame, const ShellForm<double>& form, double weight) {
+void store_point(double* point, int lane, const Mat<double, 2, 2>& jacobian, const Mat3<double>& frame, const ShellForm<double>& form,
+                 double weight) {
   double* at = point + lane;
   const auto put = [&](double x) {
     *at = x;
@@ -38,9 +39,18 @@ void store_point(double* point, int lane, const Mat<double, 2, 2>& jacobian, con
   };
   for (double x : jacobian.e) put(x);
   for (double x : quaternion(frame)) put(x);
-  for (double x : form.a) put(weight * x);
-  for (double x : form.b) put(weight * x);
-  for (double x : form.s) put(weight * x);
+  store_form(point, lane, form, weight);
+}
+
+void store_form(double* point, int lane, const ShellForm<double>& form, double weight) {
+  double* at = point + 8 * native_width + lane;
+  const auto put = [&](double x) {
+    *at = weight * x;
+    at += native_width;
+  };
+  for (double x : form.a) put(x);
+  for (double x : form.b) put(x);
+  for (double x : form.s) put(x);
 }
 
 Kernel kernel(Rule rule, Want want, int m_nodes, int r_nodes) {

@@ -1,6 +1,6 @@
+#include "assembly/shell_geodesic.hpp"
 #include "assembly/shell_kernel_impl.hpp"
 #include "assembly/shell_kernel_table.hpp"
-#include "assembly/shell_geodesic.hpp"
 
 namespace karcher::shell {
 
@@ -14,7 +14,8 @@ Kernel geodesic_kernel(Want want, int m_nodes, int r_nodes) {
     case Want::hessian:
       break;
   }
-  return quadratic_triangle ? evaluate_batch<NativeScalar, GeodesicRule, Want::hessian, 6, 6> : evaluate_batch<NativeScalar, GeodesicRule, Want::hessian, 0, 0>;
+  return quadratic_triangle ? evaluate_batch<NativeScalar, GeodesicRule, Want::hessian, 6, 6>
+                            : evaluate_batch<NativeScalar, GeodesicRule, Want::hessian, 0, 0>;
 }
 
 }  // namespace karcher::shell

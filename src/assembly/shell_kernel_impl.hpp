@@ -44,29 +44,31 @@ struct PointOperator {
 };
 
 template <class T>
-KARCHER_SHELL_INLINE void build(PointOperator<T>& o, const ShellForm<T>& c, const Vec3<T> (&e)[2], const Strain<T>& f, const Mat3<T>& qf, const T (&j)[2][2],
-                                const Sym3<T>& value_block) {
+KARCHER_SHELL_INLINE void build(PointOperator<T>& o, const ShellForm<T>& c, const Vec3<T> (&e)[2], const Strain<T>& f, const Mat3<T>& qf,
+                                const T (&j)[2][2], const Sym3<T>& value_block) {
   const auto& a = c.a;
   const auto& b = c.b;
   // C_ee [e]: the rows of the strains E_c1 and E_c2 under a rotation of the frame
   const T x0 = e[0][0], y0 = e[0][1], z0 = e[0][2], x1 = e[1][0], y1 = e[1][1], z1 = e[1][2];
-  const Mat3<T> c0{{a[1] * z1, -(a[0] * z0), a[0] * y0 - a[1] * x1, b[4] * z0, -(b[1] * z1), b[1] * y1 - b[4] * x0, -(c.s[0] * y0), c.s[0] * x0, T(0.0)}};
-  const Mat3<T> c1{{b[1] * z0, -(b[0] * z1), b[0] * y1 - b[1] * x0, a[4] * z1, -(a[1] * z0), a[1] * y0 - a[4] * x1, -(c.s[1] * y1), c.s[1] * x1, T(0.0)}};
+  const Mat3<T> c0{
+      {a[1] * z1, -(a[0] * z0), a[0] * y0 - a[1] * x1, b[4] * z0, -(b[1] * z1), b[1] * y1 - b[4] * x0, -(c.s[0] * y0), c.s[0] * x0, T(0.0)}};
+  const Mat3<T> c1{
+      {b[1] * z0, -(b[0] * z1), b[0] * y1 - b[1] * x0, a[4] * z1, -(a[1] * z0), a[1] * y0 - a[4] * x1, -(c.s[1] * y1), c.s[1] * x1, T(0.0)}};
 
   Mat3<T> ww = -(hat_times(e[0], c0) + hat_times(e[1], c1)) + outer(f.e[0], e[0]) + outer(f.e[1], e[1]);
   const T work = dot(f.e[0], e[0]) + dot(f.e[1], e[1]);
   const Sym3<T> s = symmetric_part(ww);
   const T half(0.5);
-  o.ww = {half * (s.xx + value_block.xx - work), half * (s.xy + value_block.xy),        half * (s.xz + value_block.xz),
+  o.ww = {half * (s.xx + value_block.xx - work), half * (s.xy + value_block.xy), half * (s.xz + value_block.xz),
           half * (s.yy + value_block.yy - work), half * (s.yz + value_block.yz), half * (s.zz + value_block.zz - work)};
 
   // columns of [e]^T C_ek: E11 = (0, -z0, y0), E22 = (z1, 0, -x1), E12 = (0, -z1, y1), E21 = (z0, 0, -x0) as rows of [e]
-  const auto column_a = [&](T (&r)[3], const T& f11, const T& f22) {
+  const auto column_a = [&](T(&r)[3], const T& f11, const T& f22) {
     r[0] = f22 * z1;
     r[1] = -(f11 * z0);
     r[2] = f11 * y0 - f22 * x1;
   };
-  const auto column_b = [&](T (&r)[3], const T& f12, const T& f21) {
+  const auto column_b = [&](T(&r)[3], const T& f12, const T& f21) {
     r[0] = f21 * z0;
     r[1] = -(f12 * z1);
     r[2] = f12 * y1 - f21 * x0;
@@ -118,7 +120,8 @@ KARCHER_SHELL_INLINE void deformation_block(T* g, const ShellForm<T>& c, const M
   const Sym3<T> g11 = diagonal_block(a[0], b[4], c.s[0]), g22 = diagonal_block(b[0], a[4], c.s[1]);
   const Mat3<T> g12 = outer(a[1] * q0, q1) + outer(b[1] * q1, q0);
   const T d0[6] = {g11.xx, g11.xy, g11.xz, g11.yy, g11.yz, g11.zz}, d1[6] = {g22.xx, g22.xy, g22.xz, g22.yy, g22.yz, g22.zz};
-  const T m[6] = {g12(0, 0) + g12(0, 0), g12(0, 1) + g12(1, 0), g12(0, 2) + g12(2, 0), g12(1, 1) + g12(1, 1), g12(1, 2) + g12(2, 1), g12(2, 2) + g12(2, 2)};
+  const T m[6] = {g12(0, 0) + g12(0, 0), g12(0, 1) + g12(1, 0), g12(0, 2) + g12(2, 0),
+                  g12(1, 1) + g12(1, 1), g12(1, 2) + g12(2, 1), g12(2, 2) + g12(2, 2)};
   for (int d = 0; d < 2; ++d) {
     const T j00 = j[d][0] * j[d][0], j01 = j[d][0] * j[d][1], j11 = j[d][1] * j[d][1];
     for (int k = 0; k < 6; ++k) g[6 * d + k] = j00 * d0[k] + j01 * m[k] + j11 * d1[k];
@@ -134,7 +137,8 @@ template <class T>
 KARCHER_SHELL_INLINE void apply(const PointOperator<T>& o, const T* a, T* b) {
   // rows of a and b: w 0..2, K11 3, K21 4, K31 5, K12 6, K22 7, K32 8
   for (int c = 0; c < 3; ++c) {
-    const T w0 = a[c], w1 = a[3 + c], w2 = a[6 + c], k11 = a[9 + c], k21 = a[12 + c], k31 = a[15 + c], k12 = a[18 + c], k22 = a[21 + c], k32 = a[24 + c];
+    const T w0 = a[c], w1 = a[3 + c], w2 = a[6 + c], k11 = a[9 + c], k21 = a[12 + c], k31 = a[15 + c], k12 = a[18 + c], k22 = a[21 + c],
+            k32 = a[24 + c];
     const auto row = [&](int r) { return o.wk[0][r] * k21 + o.wk[1][r] * k12 + o.wk[2][r] * k22 + o.wk[3][r] * k11; };
     b[c] += o.ww.xx * w0 + o.ww.xy * w1 + o.ww.xz * w2 + row(0);
     b[3 + c] += o.ww.xy * w0 + o.ww.yy * w1 + o.ww.yz * w2 + row(1);

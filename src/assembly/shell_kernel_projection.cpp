@@ -14,7 +14,8 @@ Kernel projection_kernel(Want want, int m_nodes, int r_nodes) {
     case Want::hessian:
       break;
   }
-  return quadratic_triangle ? evaluate_batch<NativeScalar, ProjectionRule, Want::hessian, 6, 6> : evaluate_batch<NativeScalar, ProjectionRule, Want::hessian, 0, 0>;
+  return quadratic_triangle ? evaluate_batch<NativeScalar, ProjectionRule, Want::hessian, 6, 6>
+                            : evaluate_batch<NativeScalar, ProjectionRule, Want::hessian, 0, 0>;
 }
 
 }  // namespace karcher::shell

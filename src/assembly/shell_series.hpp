@@ -49,23 +49,10 @@ KARCHER_SHELL_INLINE T angle_over_sine(const T& c) {
 /// beta(tau) = (1 - x cot x) / tau with x = theta/2, tau = theta^2 <= pi^2, which is the coefficient of [theta]^2 in the inverse Jacobians of the exponential map:
 /// a polynomial in tau / pi^2. Relative errors 1e-16 of beta, 1e-16 of its first and 1e-13 of its second derivative.
 inline constexpr double pi2 = 9.869604401089358;
-inline constexpr std::array<double, 17> beta_coefficients = {0.08333333333333333,
-                                                             0.013707783890401885,
-                                                             0.0032212001003309692,
-                                                             0.0007947992671677545,
-                                                             0.00019808975634538672,
-                                                             4.9485407080237545e-05,
-                                                             1.236908047599942e-05,
-                                                             3.0920454468611683e-06,
-                                                             7.733326674972992e-07,
-                                                             1.9236152992784547e-07,
-                                                             5.02165098869927e-08,
-                                                             9.074951172268584e-09,
-                                                             6.504254001622579e-09,
-                                                             -2.1533203222780574e-09,
-                                                             1.8612786898539385e-09,
-                                                             -5.607199399762986e-10,
-                                                             1.2460443110899903e-10};
+inline constexpr std::array<double, 17> beta_coefficients = {
+    0.08333333333333333,   0.013707783890401885,    0.0032212001003309692,  0.0007947992671677545,  0.00019808975634538672, 4.9485407080237545e-05,
+    1.236908047599942e-05, 3.0920454468611683e-06,  7.733326674972992e-07,  1.9236152992784547e-07, 5.02165098869927e-08,   9.074951172268584e-09,
+    6.504254001622579e-09, -2.1533203222780574e-09, 1.8612786898539385e-09, -5.607199399762986e-10, 1.2460443110899903e-10};
 
 template <class T>
 KARCHER_SHELL_INLINE T beta_of(const T& tau) {

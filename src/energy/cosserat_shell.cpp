@@ -7,7 +7,8 @@ const EnergyInfo& cosserat_shell_info() {
     EnergyInfo e;
     e.type = "cosserat-shell";
     e.description =
-        "Curved six-parameter Cosserat shell with all terms up to h^5 (Birsan, Ghiba, Martin, Neff 2019; Birsan 2021; Nebel, Sander, Birsan, Neff 2023).\n"
+        "Curved six-parameter Cosserat shell with all terms up to h^5 (Birsan, Ghiba, Martin, Neff 2019; Birsan 2021; Nebel, Sander, Birsan, Neff "
+        "2023).\n"
         "E = Q^T grad m - a, K = axl(Q^T grad Q), b, c, H, K_G of the reference surface:\n"
         "W = (h - K_G h^3/12) Wm(E) + (h^3/12 - K_G h^5/80) Wm(E b + c K) + h^3/6 Wmixt(E, c K b - 2H c K) + h^5/80 Wmp((E b + c K) b)\n"
         "  + (h - K_G h^3/12) Wcurv(K) + (h^3/12 - K_G h^5/80) Wcurv(K b) + h^5/80 Wcurv(K b^2)\n"
@@ -17,7 +18,12 @@ const EnergyInfo& cosserat_shell_info() {
     e.dimensions = {2};
     e.fields = {{"deformation", {"R3"}, "position of the midsurface"}, {"rotation", {"SO3"}, "microrotation; its columns are the directors"}};
     e.parameters = {
-        {.name = "thickness", .unit = "length", .description = "thickness h of the shell", .default_value = {}, .minimum = 0, .minimum_allowed = false},
+        {.name = "thickness",
+         .unit = "length",
+         .description = "thickness h of the shell",
+         .default_value = {},
+         .minimum = 0,
+         .minimum_allowed = false},
         {.name = "mu", .unit = "force/length^2", .description = "shear modulus", .default_value = {}, .minimum = 0, .minimum_allowed = false},
         {.name = "lambda", .unit = "force/length^2", .description = "first Lame parameter; 3 lambda + 2 mu > 0", .default_value = {}},
         {.name = "mu_c",
@@ -33,7 +39,8 @@ const EnergyInfo& cosserat_shell_info() {
          .minimum_allowed = false},
         {.name = "b", .unit = "1", .description = "coefficients b1, b2, b3 of the curvature energy", .default_value = 1.0, .minimum = 0, .size = 3},
     };
-    e.choices = {{"coupling", {"default", "birsan-2021"}, "form of the membrane and bending energy; birsan-2021: the refined Wcoss of Birsan (2021)"}};
+    e.choices = {
+        {"coupling", {"default", "birsan-2021"}, "form of the membrane and bending energy; birsan-2021: the refined Wcoss of Birsan (2021)"}};
     e.lame = true;
     return e;
   }();

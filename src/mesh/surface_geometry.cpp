@@ -23,8 +23,9 @@ SurfaceGeometry surface_geometry(const GeometryJet& jet) {
   g.area = std::sqrt(norm2(n));
   const double scale = std::sqrt(norm2(a1) * norm2(a2));
   if (!(g.area > 1e-12 * scale) || !std::isfinite(scale)) {
-    throw InputError(fmt::format("The reference surface is degenerate at ({:.6g}, {:.6g}, {:.6g}): its two tangent vectors are parallel, zero or not finite.",
-                                 jet.x[0], jet.x[1], jet.x[2]));
+    throw InputError(
+        fmt::format("The reference surface is degenerate at ({:.6g}, {:.6g}, {:.6g}): its two tangent vectors are parallel, zero or not finite.",
+                    jet.x[0], jet.x[1], jet.x[2]));
   }
   g.normal = (1 / g.area) * n;
   const double area2 = g.area * g.area;

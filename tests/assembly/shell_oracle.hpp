@@ -73,8 +73,8 @@ Vec<S, 4> moved(const Vec<double, 4>& q, const S* v) {
 
 template <class S>
 Mat3<S> rotation(const Vec<S, 4>& q) {
-  const S xx = q[1] * q[1], yy = q[2] * q[2], zz = q[3] * q[3], xy = q[1] * q[2], xz = q[1] * q[3], yz = q[2] * q[3], wx = q[0] * q[1], wy = q[0] * q[2],
-          wz = q[0] * q[3];
+  const S xx = q[1] * q[1], yy = q[2] * q[2], zz = q[3] * q[3], xy = q[1] * q[2], xz = q[1] * q[3], yz = q[2] * q[3], wx = q[0] * q[1],
+          wy = q[0] * q[2], wz = q[0] * q[3];
   return {{1.0 - (yy + zz) * 2.0, (xy - wz) * 2.0, (xz + wy) * 2.0, (xy + wz) * 2.0, 1.0 - (xx + zz) * 2.0, (yz - wx) * 2.0, (xz - wy) * 2.0,
            (yz + wx) * 2.0, 1.0 - (xx + yy) * 2.0}};
 }
@@ -317,6 +317,46 @@ inline Element random_element(CellKind kind, int m_order, int r_order, std::mt19
     e.q.push_back(q);
   }
   return e;
+}
+
+/// Elements side by side, as the kernel wants them; fewer than native_width are repeated.
+struct Lanes {
+  AlignedVector<double> points, m, q;
+
+  explicit Lanes(const std::vector<Element>& elements) {
+    constexpr int W = native_width;
+    const shell::Tables& t = elements.front().tables;
+    points.resize(static_cast<std::size_t>(t.points * shell::point_entries * W));
+    m.resize(static_cast<std::size_t>(t.m_nodes * 3 * W));
+    q.resize(static_cast<std::size_t>(t.r_nodes * 4 * W));
+    for (int lane = 0; lane < W; ++lane) {
+      const Element& e = elements[static_cast<std::size_t>(lane) % elements.size()];
+      for (int p = 0; p < t.points; ++p) {
+        const auto at = static_cast<std::size_t>(p);
+        const SurfaceGeometry& g = e.geometry[at];
+        shell::store_point(points.data() + p * shell::point_entries * W, lane, g.jacobian(), g.frame,
+                           shell_form(g.curvature[0], g.curvature[1], e.material[at], e.coupling), e.weight[at]);
+      }
+      set_configuration(e, lane);
+    }
+  }
+  void set_configuration(const Element& e, int lane) {
+    for (std::size_t i = 0; i < e.m.size(); ++i)
+      for (int c = 0; c < 3; ++c) m[(3 * i + static_cast<std::size_t>(c)) * native_width + static_cast<std::size_t>(lane)] = e.m[i][c];
+    for (std::size_t i = 0; i < e.q.size(); ++i)
+      for (int c = 0; c < 4; ++c) q[(4 * i + static_cast<std::size_t>(c)) * native_width + static_cast<std::size_t>(lane)] = e.q[i][c];
+  }
+};
+
+inline BatchResult evaluate(const Element& like, const Lanes& lanes, Want want) {
+  BatchResult out;
+  const auto n = static_cast<std::size_t>(like.unknowns());
+  out.gradient.resize(n * native_width);
+  out.hessian.resize(n * n * native_width);
+  shell::kernel(like.rule, want, like.tables.m_nodes, like.tables.r_nodes)(
+      like.tables, lanes.points.data(), lanes.m.data(), lanes.q.data(),
+      {out.energy.data(), out.trouble.data(), out.gradient.data(), out.hessian.data()});
+  return out;
 }
 
 }  // namespace karcher::shell_oracle

@@ -31,6 +31,8 @@ inline constexpr int point_entries = 8 + ShellForm<double>::size;
 /// Writes one lane of the data of a point.
 /// \param frame  rotation matrix with the columns t_1, t_2, n_0 \param weight  quadrature weight times sqrt(det a)
 void store_point(double* point, int lane, const Mat<double, 2, 2>& jacobian, const Mat3<double>& frame, const ShellForm<double>& form, double weight);
+/// Writes the quadratic form only.
+void store_form(double* point, int lane, const ShellForm<double>& form, double weight);
 
 /// Where the results go; energy and trouble have native_width entries. gradient and hessian may be null where they are not wanted.
 struct Output {

@@ -32,11 +32,11 @@ enum class ShellCoupling { standard, birsan_2021 };
 /// Constants of the shell at a point. T: double, or a scalar that holds several points.
 template <class T>
 struct ShellMaterial {
-  T thickness{};          ///< h > 0 [length]
-  T mu{}, lambda{};       ///< Lame parameters [force/length^2], mu > 0, 3 lambda + 2 mu > 0
-  T mu_c{};               ///< Cosserat couple modulus >= 0 [force/length^2]
+  T thickness{};         ///< h > 0 [length]
+  T mu{}, lambda{};      ///< Lame parameters [force/length^2], mu > 0, 3 lambda + 2 mu > 0
+  T mu_c{};              ///< Cosserat couple modulus >= 0 [force/length^2]
   T internal_length{};   ///< L_c > 0 [length]
-  std::array<T, 3> b{};   ///< curvature coefficients [1]
+  std::array<T, 3> b{};  ///< curvature coefficients [1]
 };
 
 /// Parts of the density: "membrane" is the term in Wm(E); "bending" are the terms in E b + c K, with the mixed one; "curvature" are those in Wcurv.
@@ -50,8 +50,8 @@ struct ShellEnergy {
 /// \param e, k  strain tensors E and K, any basis of R^3, the same for all arguments
 /// \param b, c  tensors of the reference surface \param n  its unit normal n_0
 template <class S, class T>
-ShellEnergy<S> cosserat_shell_density(const Mat3<S>& e, const Mat3<S>& k, const Mat3<T>& b, const Mat3<T>& c, const Vec3<T>& n, const ShellMaterial<T>& material,
-                                      ShellCoupling coupling) {
+ShellEnergy<S> cosserat_shell_density(const Mat3<S>& e, const Mat3<S>& k, const Mat3<T>& b, const Mat3<T>& c, const Vec3<T>& n,
+                                      const ShellMaterial<T>& material, ShellCoupling coupling) {
   const T h = material.thickness, mu = material.mu, mu_c = material.mu_c, lambda = material.lambda;
   const T mean = T(0.5) * trace(b), gauss = T(2.0) * mean * mean - T(0.5) * trace(b * b), twice_mean = T(2.0) * mean;
   const T plane = lambda * mu / (lambda + T(2.0) * mu);
@@ -142,7 +142,8 @@ ShellForm<T> shell_form(const T& k1, const T& k2, const ShellMaterial<T>& materi
   const T ml = mu * material.internal_length * material.internal_length * curvature;
   const T o1 = ml * (material.b[0] + material.b[1]) * T(0.5), o2 = ml * (material.b[0] - material.b[1]);
   const T d1 = ml * (material.b[0] * T(2.0 / 3) + material.b[2]), d12 = ml * T(2.0) * (material.b[2] - material.b[0] * T(1.0 / 3));
-  const T x1 = c0 + c1 * k1 * k1 + c3 * k1 * k1 * k1 * k1, x2 = c0 + c1 * k2 * k2 + c3 * k2 * k2 * k2 * k2, x12 = c0 + c1 * gauss + c3 * gauss * gauss;
+  const T x1 = c0 + c1 * k1 * k1 + c3 * k1 * k1 * k1 * k1, x2 = c0 + c1 * k2 * k2 + c3 * k2 * k2 * k2 * k2,
+          x12 = c0 + c1 * gauss + c3 * gauss * gauss;
 
   ShellForm<T> f;
   // S11 = k1 E11 + K21 and S22 = k2 E22 - K12 are the diagonal of E b + c K; their quadratic form:

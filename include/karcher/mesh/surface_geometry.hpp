@@ -22,7 +22,7 @@ struct SurfaceGeometry {
   /// Columns: unit principal directions t_1, t_2 of curvature[0], curvature[1], and n_0; right-handed. At an umbilic t_1 is along a_1.
   Mat3<double> frame;
 
-  double mean_curvature() const { return 0.5 * (curvature[0] + curvature[1]); }   ///< H
+  double mean_curvature() const { return 0.5 * (curvature[0] + curvature[1]); }  ///< H
   double gauss_curvature() const { return curvature[0] * curvature[1]; }         ///< K_G
   /// Orthonormal derivatives from those in the parameters: f_b = sum_a jacobian(a, b) d_a f, with jacobian(a, b) = a^a . t_b.
   Mat<double, 2, 2> jacobian() const;

@@ -18,7 +18,7 @@ class GeodesicRule {
   static constexpr int capacity = Nodes > 0 ? Nodes : max_nodes;
 
   GeodesicRule(const Tables& tables, const double* q) : tables_(tables) {
-    Vec<T, 4> middle{};
+    Quaternion<T> middle{};
     for (int i = 0; i < nodes(); ++i) {
       for (int c = 0; c < 4; ++c) q_[i][c] = load<T>(q + (4 * i + c) * lanes<T>);
       const auto flip = dot(q_[i], q_[0]) < T(0.0);
@@ -45,11 +45,11 @@ class GeodesicRule {
   Vec3<T> rate[2];   ///< k_b in the body frame
 
   /// Finds Q at the points first .. first + count - 1, all at once.
-  KARCHER_SHELL_INLINE void solve(int first, int count) {
+  void solve(int first, int count) {
     T step[max_chunk], accuracy[max_chunk];
     for (int p = 0; p < count; ++p) {
       const double* l = tables_.r_value.data() + (first + p) * nodes();
-      Vec<T, 4> q{};
+      Quaternion<T> q{};
       for (int i = 0; i < nodes(); ++i)
         for (int c = 0; c < 4; ++c) q[c] += T(l[i]) * q_[i][c];
       const T scale = T(1.0) / sqrt(dot(q, q));
@@ -71,14 +71,14 @@ class GeodesicRule {
   }
 
   /// Goes to point number p of the chunk. \param lb  [node]: derivatives of the basis in the two principal directions
-  KARCHER_SHELL_INLINE void go_to(int p, const double* l, const T (*lb)[2]) {
+  void go_to(int p, const double* l, const T (*lb)[2]) {
     auto ok = accuracy_[p] < T(converged);
     for (int attempt = 0; attempt < 2; ++attempt) {
       rotation = rotation_matrix(found_[p]);
       Sym3<T> g{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
       rate[0] = rate[1] = Vec3<T>{};
       for (int i = 0; i < nodes(); ++i) {
-        const Vec3<T> t = logarithm(relative_quaternion(found_[p], q_[i]));
+        const Vec3<T> t = logarithm(quaternion_product(conjugate(found_[p]), q_[i]));
         theta_[i] = t;
         const T tau = dot(t, t);
         beta_[i] = beta_jet(tau);
@@ -88,7 +88,7 @@ class GeodesicRule {
       const Sym3<T> c = cofactor(g);
       const T det = g.xx * c.xx + g.xy * c.xy + g.xz * c.xz;
       inverse_ = scaled(T(1.0) / det, c);
-      ok = ok & (g.xx > T(threshold)) & (c.zz > T(threshold)) & (det > T(threshold));
+      ok = ok & (g.xx > T(0.0)) & (c.zz > T(1e-12)) & (det > T(1e-6) * c.zz);  // G is I where all rotations agree
       if (all(ok)) break;
       if (attempt == 0) {
         repair(p, l, ok);
@@ -99,7 +99,7 @@ class GeodesicRule {
   }
 
   /// Solves the adjoint equations. \param f  principal frame \param moment  sum_b E_b x e_b and \param k  K_b, both in the frame
-  KARCHER_SHELL_INLINE void adjoint(const Mat3<T>& f, const Vec3<T>& moment, const Vec3<T> (&k)[2], const double* l, const T (*lb)[2]) {
+  void adjoint(const Mat3<T>& f, const Vec3<T>& moment, const Vec3<T> (&k)[2], const double* l, const T (*lb)[2]) {
     Mat3<T> outer_product{};
     turn_ = Vec3<T>{};
     for (int b = 0; b < 2; ++b) {
@@ -125,14 +125,14 @@ class GeodesicRule {
   }
 
   /// Adds the point's share of the gradient to the nodes' sums.
-  KARCHER_SHELL_INLINE void add_gradient(const double*, const double*, const T (&)[2][2]) {
+  void add_gradient(const double*, const double*, const T (&)[2][2]) {
     for (int i = 0; i < nodes(); ++i) gradient_[i] += transposed_jacobian_times(i, phi_[i]);
   }
   /// Gradient of node i after all points.
-  KARCHER_SHELL_INLINE Vec3<T> gradient(int i) const { return gradient_[i]; }
+  Vec3<T> gradient(int i) const { return gradient_[i]; }
 
   /// Prepares `node`: writes the parts of the maps that do not need the sums over the nodes, and forms these sums.
-  KARCHER_SHELL_INLINE void linearize(const Mat3<T>& f, const double* ls, const T (*lb)[2], T (*a)[27], T (*b)[27]) {
+  void linearize(const Mat3<T>& f, const double* ls, const T (*lb)[2], T (*a)[27], T (*b)[27]) {
     const Mat3<T> fk = transpose_times(f, full(inverse_));
     Mat3<T> u[2] = {}, v[2] = {}, ww{};
     for (int i = 0; i < nodes(); ++i) {
@@ -194,33 +194,32 @@ class GeodesicRule {
   }
 
   /// Block (w, w) of the second variation that does not pass through the strains, in the principal frame.
-  KARCHER_SHELL_INLINE Sym3<T> value_block() const { return value_block_; }
+  Sym3<T> value_block() const { return value_block_; }
 
   /// Maps of node i: `a` holds w, k_1', k_2' (3 x 3 each) per v_i, `b` holds -T_i, c_1, c_2; rows in the principal frame.
-  KARCHER_SHELL_INLINE void node(int, const double*, const T (*)[2], T* a, T* b) {
+  void node(int, const double*, const T (*)[2], T* a, T* b) {
     const Mat3<T> w = matrix(a);
     for (int s = 0; s < 2; ++s) {
       store(matrix(a + 9 * (s + 1)) - u_[s] * w, a + 9 * (s + 1));
       store(matrix(b + 9 * (s + 1)) + v_[s] * w, b + 9 * (s + 1));
     }
   }
-  KARCHER_SHELL_INLINE Vec3<T> node_gradient(int i) const { return gradient_[i]; }
-  KARCHER_SHELL_INLINE Sym3<T> node_block(int i) const { return block_[i]; }
+  Vec3<T> node_gradient(int i) const { return gradient_[i]; }
+  Sym3<T> node_block(int i) const { return block_[i]; }
 
  private:
   static constexpr double converged = 1e-31;  // squared angle that remains
-  static constexpr double threshold = 1e-9;   // of the leading minors of G, which is I where all rotations agree
 
   int nodes() const { return Nodes > 0 ? Nodes : tables_.r_nodes; }
 
   /// Rotation vector of a unit quaternion.
-  KARCHER_SHELL_INLINE static Vec3<T> logarithm(const Vec<T, 4>& p) {
+  static Vec3<T> logarithm(const Quaternion<T>& p) {
     const auto flip = p[0] < T(0.0);
     const T c = select(flip, -p[0], p[0]), factor = angle_over_sine(c), f = select(flip, -factor, factor);
     return {{f * p[1], f * p[2], f * p[3]}};
   }
   /// g += l (I + beta [theta]^2)
-  KARCHER_SHELL_INLINE static void add_symmetric_part(Sym3<T>& g, const T& l, const Vec3<T>& t, const T& tau, const T& beta) {
+  static void add_symmetric_part(Sym3<T>& g, const T& l, const Vec3<T>& t, const T& tau, const T& beta) {
     const T lb = l * beta, diagonal = l - lb * tau;
     g.xx += diagonal + lb * t[0] * t[0];
     g.xy += lb * t[0] * t[1];
@@ -230,30 +229,30 @@ class GeodesicRule {
     g.zz += diagonal + lb * t[2] * t[2];
   }
   /// D_i = (1 - beta tau) I + beta theta theta^T + 1/2 [theta]
-  KARCHER_SHELL_INLINE Mat3<T> jacobian(int i) const {
+  Mat3<T> jacobian(int i) const {
     const Vec3<T>& t = theta_[i];
     const T diagonal = T(1.0) - beta_[i][0] * dot(t, t);
     Mat3<T> d = outer(beta_[i][0] * t, t) + hat(T(0.5) * t);
     for (int k = 0; k < 3; ++k) d(k, k) += diagonal;
     return d;
   }
-  KARCHER_SHELL_INLINE Vec3<T> jacobian_times(int i, const Vec3<T>& x) const {
+  Vec3<T> jacobian_times(int i, const Vec3<T>& x) const {
     const Vec3<T>& t = theta_[i];
     const T b = beta_[i][0];
     return (T(1.0) - b * dot(t, t)) * x + (b * dot(t, x)) * t + T(0.5) * cross(t, x);
   }
-  KARCHER_SHELL_INLINE Vec3<T> transposed_jacobian_times(int i, const Vec3<T>& x) const {
+  Vec3<T> transposed_jacobian_times(int i, const Vec3<T>& x) const {
     const Vec3<T>& t = theta_[i];
     const T b = beta_[i][0];
     return (T(1.0) - b * dot(t, t)) * x + (b * dot(t, x)) * t - T(0.5) * cross(t, x);
   }
 
   /// One Newton step for sum_i l_i theta_i = 0; returns the square of its angle. The first terms of beta will do: they decide the speed, not the result.
-  KARCHER_SHELL_INLINE T newton_step(const double* l, Vec<T, 4>& q) const {
+  T newton_step(const double* l, Quaternion<T>& q) const {
     Sym3<T> g{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
     Vec3<T> sum{};
     for (int i = 0; i < nodes(); ++i) {
-      const Vec3<T> t = logarithm(relative_quaternion(q, q_[i]));
+      const Vec3<T> t = logarithm(quaternion_product(conjugate(q), q_[i]));
       const T tau = dot(t, t);
       const T beta = (((T(1.0 / 47900160) * tau + T(1.0 / 1209600)) * tau + T(1.0 / 30240)) * tau + T(1.0 / 720)) * tau + T(1.0 / 12);
       add_symmetric_part(g, T(l[i]), t, tau, beta);
@@ -263,11 +262,11 @@ class GeodesicRule {
     const T det = g.xx * c.xx + g.xy * c.xy + g.xz * c.xz;
     const Vec3<T> w = (T(1.0) / det) * times(c, sum);
     const T angle2 = dot(w, w), scale = T(1.0) / sqrt(T(1.0) + T(0.25) * angle2), half = T(0.5) * scale;
-    q = quaternion_product(q, Vec<T, 4>{{scale, half * w[0], half * w[1], half * w[2]}});
+    q = quaternion_product(q, Quaternion<T>{{scale, half * w[0], half * w[1], half * w[2]}});
     return angle2;
   }
 
-  void copy_lane(int k, double (*q)[4]) const {
+  void copy_lane(int k, Quaternion<double>* q) const {
     for (int i = 0; i < nodes(); ++i)
       for (int c = 0; c < 4; ++c) q[i][c] = lane(q_[i][c], k);
   }
@@ -275,7 +274,7 @@ class GeodesicRule {
   [[gnu::noinline]] void check_spread(MaskOf<T> close) {
     for (int k = 0; k < lanes<T>; ++k) {
       if (lane_of(close, k)) continue;
-      double q[max_nodes][4];
+      Quaternion<double> q[max_nodes];
       copy_lane(k, q);
       if (!unique_mean(q, nodes())) set_lane(trouble, k, 1.0);
     }
@@ -284,7 +283,7 @@ class GeodesicRule {
   [[gnu::noinline]] void repair(int p, const double* l, MaskOf<T> ok) {
     for (int k = 0; k < lanes<T>; ++k) {
       if (lane_of(ok, k)) continue;
-      double q[max_nodes][4], found[4];
+      Quaternion<double> q[max_nodes], found;
       copy_lane(k, q);
       if (!riemannian_mean(q, l, nodes(), found)) set_lane(trouble, k, 1.0);
       for (int c = 0; c < 4; ++c) set_lane(found_[p][c], k, found[c]);
@@ -292,11 +291,11 @@ class GeodesicRule {
   }
 
   const Tables& tables_;
-  Vec<T, 4> q_[capacity];
+  Quaternion<T> q_[capacity];
   Vec3<T> theta_[capacity], phi_[capacity], gradient_[capacity];
   std::array<T, 3> beta_[capacity];
   Sym3<T> block_[capacity];
-  Vec<T, 4> found_[max_chunk];
+  Quaternion<T> found_[max_chunk];
   T accuracy_[max_chunk];
   Sym3<T> inverse_, sg_, value_block_;  // G^-1
   Mat3<T> u_[2], v_[2];

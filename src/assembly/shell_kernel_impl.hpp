@@ -20,7 +20,7 @@ struct Strain {
 };
 
 template <class T>
-KARCHER_SHELL_INLINE Strain<T> stress(const ShellForm<T>& c, const Strain<T>& z) {
+Strain<T> stress(const ShellForm<T>& c, const Strain<T>& z) {
   const T e11 = z.e[0][0], e21 = z.e[0][1], e31 = z.e[0][2], e12 = z.e[1][0], e22 = z.e[1][1], e32 = z.e[1][2];
   const T k11 = z.k[0][0], k21 = z.k[0][1], k31 = z.k[0][2], k12 = z.k[1][0], k22 = z.k[1][1], k32 = z.k[1][2];
   const auto& a = c.a;
@@ -44,8 +44,8 @@ struct PointOperator {
 };
 
 template <class T>
-KARCHER_SHELL_INLINE void build(PointOperator<T>& o, const ShellForm<T>& c, const Vec3<T> (&e)[2], const Strain<T>& f, const Mat3<T>& qf,
-                                const T (&j)[2][2], const Sym3<T>& value_block) {
+void build(PointOperator<T>& o, const ShellForm<T>& c, const Vec3<T> (&e)[2], const Strain<T>& f, const Mat3<T>& qf, const T (&j)[2][2],
+           const Sym3<T>& value_block) {
   const auto& a = c.a;
   const auto& b = c.b;
   // C_ee [e]: the rows of the strains E_c1 and E_c2 under a rotation of the frame
@@ -102,7 +102,7 @@ KARCHER_SHELL_INLINE void build(PointOperator<T>& o, const ShellForm<T>& c, cons
 
 /// The second derivatives of the density with respect to d_1 m and d_2 m: blocks (1, 1) and (2, 2) as upper triangles, (1, 2) whole.
 template <class T>
-KARCHER_SHELL_INLINE void deformation_block(T* g, const ShellForm<T>& c, const Mat3<T>& qf, const T (&j)[2][2]) {
+void deformation_block(T* g, const ShellForm<T>& c, const Mat3<T>& qf, const T (&j)[2][2]) {
   const Vec3<T> q0 = column(qf, 0), q1 = column(qf, 1), q2 = column(qf, 2);
   const auto& a = c.a;
   const auto& b = c.b;
@@ -134,7 +134,7 @@ KARCHER_SHELL_INLINE void deformation_block(T* g, const ShellForm<T>& c, const M
 
 /// w = 1/2 M a + b on 9 x 3 matrices; b is overwritten.
 template <class T>
-KARCHER_SHELL_INLINE void apply(const PointOperator<T>& o, const T* a, T* b) {
+void apply(const PointOperator<T>& o, const T* a, T* b) {
   // rows of a and b: w 0..2, K11 3, K21 4, K31 5, K12 6, K22 7, K32 8
   for (int c = 0; c < 3; ++c) {
     const T w0 = a[c], w1 = a[3 + c], w2 = a[6 + c], k11 = a[9 + c], k21 = a[12 + c], k31 = a[15 + c], k12 = a[18 + c], k22 = a[21 + c],
@@ -154,7 +154,7 @@ KARCHER_SHELL_INLINE void apply(const PointOperator<T>& o, const T* a, T* b) {
 
 /// Change of the forces at d_a m under the variation a: 3 x 3 for each a.
 template <class T>
-KARCHER_SHELL_INLINE void force(const PointOperator<T>& o, const T* a, T* h) {
+void force(const PointOperator<T>& o, const T* a, T* h) {
   for (int d = 0; d < 2; ++d)
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
@@ -164,7 +164,7 @@ KARCHER_SHELL_INLINE void force(const PointOperator<T>& o, const T* a, T* h) {
 
 /// Adds a_i^T w_j + w_i^T a_j for N consecutive nodes j, whose 9 x 3 matrices follow one another.
 template <class T, int N>
-KARCHER_SHELL_INLINE void rank_update(const T* ai, const T* wi, const T* aj, const T* wj, double* hessian, int stride) {
+void rank_update(const T* ai, const T* wi, const T* aj, const T* wj, double* hessian, int stride) {
   T sum[3][3 * N];
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3 * N; ++c) sum[r][c] = load<T>(hessian + (r * stride + c) * lanes<T>);
@@ -178,7 +178,7 @@ KARCHER_SHELL_INLINE void rank_update(const T* ai, const T* wi, const T* aj, con
 
 /// Adds a^T w + w^T a.
 template <class T>
-KARCHER_SHELL_INLINE void diagonal_update(const T* a, const T* w, double* hessian, int stride) {
+void diagonal_update(const T* a, const T* w, double* hessian, int stride) {
   Mat3<T> s{};
   for (int k = 0; k < 9; ++k)
     for (int r = 0; r < 3; ++r)
@@ -192,7 +192,7 @@ KARCHER_SHELL_INLINE void diagonal_update(const T* a, const T* w, double* hessia
 
 /// Sums over a chunk of points of the blocks of N consecutive deformation nodes j with rotation node i. \param forces  [point][stride][18] of node i
 template <class T, int N>
-KARCHER_SHELL_INLINE void mixed_blocks(const double* dm, int nm, int count, const T* forces, int stride, bool fresh, double* hessian, int n) {
+void mixed_blocks(const double* dm, int nm, int count, const T* forces, int stride, bool fresh, double* hessian, int n) {
   T sum[N][9];
   for (int j = 0; j < N; ++j)
     for (int k = 0; k < 9; ++k) sum[j][k] = fresh ? T(0.0) : load<T>(hessian + ((3 * j + k / 3) * n + k % 3) * lanes<T>);
@@ -206,7 +206,7 @@ KARCHER_SHELL_INLINE void mixed_blocks(const double* dm, int nm, int count, cons
 
 /// Sums of the blocks of deformation node i with all nodes j >= i. \param blocks  [point][21], as deformation_block writes them
 template <class T>
-KARCHER_SHELL_INLINE void deformation_row(const double* dm, int nm, int i, int count, const T (*blocks)[21], bool fresh, double* hessian, int n) {
+void deformation_row(const double* dm, int nm, int i, int count, const T (*blocks)[21], bool fresh, double* hessian, int n) {
   T half[max_chunk][2][9];
   constexpr int at[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5}, flipped[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
   for (int p = 0; p < count; ++p) {
@@ -249,7 +249,7 @@ void report(const T& energy, const T& trouble, int gradient_size, int hessian_si
 }
 
 template <class T, template <class, int> class RotationRule, Want want, int FixedM, int FixedR>
-void evaluate_batch(const Tables& tables, const double* points, const double* m, const double* q, const Output& out) {
+[[gnu::flatten]] void evaluate_batch(const Tables& tables, const double* points, const double* m, const double* q, const Output& out) {
   constexpr int W = lanes<T>;
   constexpr int capacity_r = FixedR > 0 ? FixedR : max_nodes;
   constexpr bool hessian_wanted = want == Want::hessian, gradient_wanted = want != Want::energy;
@@ -280,7 +280,7 @@ void evaluate_batch(const Tables& tables, const double* points, const double* m,
       const double* dl = tables.r_gradient.data() + (first + p) * nr * 2;
       T j[2][2];
       for (int k = 0; k < 4; ++k) j[k / 2][k % 2] = load<T>(data + k * W);
-      const Mat3<T> f = rotation_matrix(Vec<T, 4>{{load<T>(data + 4 * W), load<T>(data + 5 * W), load<T>(data + 6 * W), load<T>(data + 7 * W)}});
+      const Mat3<T> f = rotation_matrix(Quaternion<T>{{load<T>(data + 4 * W), load<T>(data + 5 * W), load<T>(data + 6 * W), load<T>(data + 7 * W)}});
       ShellForm<T> c;
       for (int k = 0; k < 10; ++k) c.a[static_cast<std::size_t>(k)] = load<T>(data + (8 + k) * W);
       for (int k = 0; k < 10; ++k) c.b[static_cast<std::size_t>(k)] = load<T>(data + (18 + k) * W);

@@ -34,11 +34,11 @@ class ProjectionRule {
   Vec3<T> rate[2];   ///< k_b in the body frame
 
   /// Finds Q at the points first .. first + count - 1, all at once, since each is a long chain of dependent operations.
-  KARCHER_SHELL_INLINE void solve(int first, int count) {
+  void solve(int first, int count) {
     T a[max_chunk][9], step[max_chunk];
     for (int p = 0; p < count; ++p) {
       const double* l = tables_.r_value.data() + (first + p) * nodes();
-      Vec<T, 4> q{};
+      Quaternion<T> q{};
       for (int k = 0; k < 9; ++k) a[p][k] = T(0.0);
       for (int i = 0; i < nodes(); ++i) {
         for (int k = 0; k < 9; ++k) a[p][k] += T(l[i]) * r_[i][k];
@@ -59,7 +59,7 @@ class ProjectionRule {
   }
 
   /// Goes to point number p of the chunk. \param lb  [node]: derivatives of the basis in the two principal directions
-  KARCHER_SHELL_INLINE void go_to(int p, const double* l, const T (*lb)[2]) {
+  void go_to(int p, const double* l, const T (*lb)[2]) {
     Mat3<T> a{}, a1{}, a2{};
     for (int i = 0; i < nodes(); ++i)
       for (int k = 0; k < 9; ++k) {
@@ -76,8 +76,8 @@ class ProjectionRule {
       const Sym3<T> c = cofactor(g);
       const T det = g.xx * c.xx + g.xy * c.xy + g.xz * c.xz;
       inverse_ = scaled(T(1.0) / det, c);
-      // G positive definite: then Q is the closest rotation, because tr(Q^T A) is a Rayleigh quotient of the quaternion.
-      ok = ok & (g.xx > T(threshold)) & (c.zz > T(threshold)) & (det > T(threshold));
+      // G positive definite (it is 2 I where all rotations agree): then Q is the closest rotation, because tr(Q^T A) is a Rayleigh quotient of the quaternion.
+      ok = ok & (g.xx > T(0.0)) & (c.zz > T(1e-12)) & (det > T(1e-6) * c.zz);
       if (all(ok)) break;
       if (attempt == 0) {
         repair(p, l, ok);
@@ -90,7 +90,7 @@ class ProjectionRule {
   }
 
   /// Solves the adjoint equations. \param f  principal frame \param moment  sum_b E_b x e_b and \param k  K_b, both in the frame
-  KARCHER_SHELL_INLINE void adjoint(const Mat3<T>& f, const Vec3<T>& moment, const Vec3<T> (&k)[2], const double*, const T (*)[2]) {
+  void adjoint(const Mat3<T>& f, const Vec3<T>& moment, const Vec3<T> (&k)[2], const double*, const T (*)[2]) {
     n0_ = Mat3<T>{};
     Vec3<T> right = f * moment;
     T diagonal(0.0);
@@ -108,7 +108,7 @@ class ProjectionRule {
   }
 
   /// Adds the point's share of the gradient to the nodes' sums. \param jacobian  [a][b]
-  KARCHER_SHELL_INLINE void add_gradient(const double* l, const double* dl, const T (&jacobian)[2][2]) {
+  void add_gradient(const double* l, const double* dl, const T (&jacobian)[2][2]) {
     // <N_i, Z_i [v]> = v . Ax(R_i^T (Q N_i)): the product with R_i^T waits until the sum over the points is known.
     const Mat3<T> x0 = rotation * n0_, x1 = rotation * hat(jacobian[0][0] * mu_[0] + jacobian[0][1] * mu_[1]),
                   x2 = rotation * hat(jacobian[1][0] * mu_[0] + jacobian[1][1] * mu_[1]);
@@ -119,10 +119,10 @@ class ProjectionRule {
       }
   }
   /// Gradient of node i, after all points, where add_gradient was used.
-  KARCHER_SHELL_INLINE Vec3<T> gradient(int i) const { return ax(transpose_times(matrix(r_[i]), matrix(sum_[i]))); }
+  Vec3<T> gradient(int i) const { return ax(transpose_times(matrix(r_[i]), matrix(sum_[i]))); }
 
   /// Prepares `node`.
-  KARCHER_SHELL_INLINE void linearize(const Mat3<T>& f, const double*, const T (*)[2], T (*)[27], T (*)[27]) {
+  void linearize(const Mat3<T>& f, const double*, const T (*)[2], T (*)[27], T (*)[27]) {
     const Mat3<T> inverse = full(inverse_);
     fk_ = transpose_times(f, inverse);
     f_ = f;
@@ -140,7 +140,7 @@ class ProjectionRule {
   }
 
   /// Block (w, w) of the second variation that does not pass through the strains, in the principal frame: sym M - tr(M) I.
-  KARCHER_SHELL_INLINE Sym3<T> value_block() const {
+  Sym3<T> value_block() const {
     Mat3<T> m = n0_ * full(s_);
     for (int b = 0; b < 2; ++b) m += hat(mu_[b]) * transpose(b_[b]);
     const Sym3<T> s = symmetric_part(m);
@@ -150,7 +150,7 @@ class ProjectionRule {
   }
 
   /// Maps of node i: `a` holds w, k_1', k_2' (3 x 3 each) per v_i, `b` holds -T_i, c_1, c_2; rows in the principal frame.
-  KARCHER_SHELL_INLINE void node(int i, const double* ls, const T (*lb)[2], T* a, T* b) {
+  void node(int i, const double* ls, const T (*lb)[2], T* a, T* b) {
     const T l(ls[i]);
     const Mat3<T> z = transpose_times(rotation, matrix(r_[i]));
     const Mat3<T> n = l * n0_ + hat(lb[i][0] * mu_[0] + lb[i][1] * mu_[1]);
@@ -178,8 +178,8 @@ class ProjectionRule {
     }
   }
   /// Gradient of node i, and sym P_i - tr(P_i) I, after all points, where `node` was used.
-  KARCHER_SHELL_INLINE Vec3<T> node_gradient(int i) const { return ax(matrix(sum_[i])); }
-  KARCHER_SHELL_INLINE Sym3<T> node_block(int i) const {
+  Vec3<T> node_gradient(int i) const { return ax(matrix(sum_[i])); }
+  Sym3<T> node_block(int i) const {
     const Sym3<T> s = symmetric_part(matrix(sum_[i]));
     const T t = s.xx + s.yy + s.zz;
     return {s.xx - t, s.xy, s.xz, s.yy - t, s.yz, s.zz - t};
@@ -188,20 +188,18 @@ class ProjectionRule {
  private:
   // The last step before the convergence is cubic (quadratic far away), so that what remains after a step of 1e-7 is below rounding.
   static constexpr double converged = 1e-14;
-  // Of the leading minors of G, which is 2 I where all rotations agree.
-  static constexpr double threshold = 1e-9;
 
   int nodes() const { return Nodes > 0 ? Nodes : tables_.r_nodes; }
 
   /// One Newton step for the maximum of tr(Q^T A); returns the square of its angle.
-  KARCHER_SHELL_INLINE static T newton_step(const T (&a)[9], Vec<T, 4>& q) {
+  static T newton_step(const T (&a)[9], Quaternion<T>& q) {
     const Mat3<T> s = transpose_times(rotation_matrix(q), matrix(a));
     const Sym3<T> g = trace_minus(s), c = cofactor(g);
     const T det = g.xx * c.xx + g.xy * c.xy + g.xz * c.xz;
     const Vec3<T> w = (T(1.0) / det) * times(c, ax(s));
     const T angle2 = dot(w, w);
     const T scale = T(1.0) / sqrt(T(1.0) + T(0.25) * angle2), half = T(0.5) * scale;
-    q = quaternion_product(q, Vec<T, 4>{{scale, half * w[0], half * w[1], half * w[2]}});
+    q = quaternion_product(q, Quaternion<T>{{scale, half * w[0], half * w[1], half * w[2]}});
     return angle2;
   }
 
@@ -209,7 +207,7 @@ class ProjectionRule {
   [[gnu::noinline]] void repair(int p, const double* l, MaskOf<T> ok) {
     for (int k = 0; k < lanes<T>; ++k) {
       if (lane_of(ok, k)) continue;
-      double q[max_nodes][4], found[4];
+      Quaternion<double> q[max_nodes], found;
       for (int i = 0; i < nodes(); ++i)
         for (int c = 0; c < 4; ++c) q[i][c] = lane(q_[i][c], k);
       if (!closest_rotation(q, l, nodes(), found)) set_lane(trouble, k, 1.0);
@@ -218,9 +216,9 @@ class ProjectionRule {
   }
 
   const Tables& tables_;
-  Vec<T, 4> q_[capacity];
+  Quaternion<T> q_[capacity];
   T r_[capacity][9], sum_[capacity][9];
-  Vec<T, 4> found_[max_chunk];
+  Quaternion<T> found_[max_chunk];
   T converged_[max_chunk];
   Sym3<T> s_, inverse_;  // S and G^-1
   Mat3<T> b_[2], n0_, f_, fk_, v_[2], fkk_[2];

@@ -12,7 +12,7 @@
 namespace karcher::shell {
 
 template <class T, std::size_t N>
-KARCHER_SHELL_INLINE T horner(const std::array<double, N>& a, const T& x) {
+T horner(const std::array<double, N>& a, const T& x) {
   T y(a[N - 1]);
   for (std::size_t k = N - 1; k > 0; --k) y = y * x + T(a[k - 1]);
   return y;
@@ -21,7 +21,7 @@ KARCHER_SHELL_INLINE T horner(const std::array<double, N>& a, const T& x) {
 /// theta / sin(theta/2) = 2 sum_k 2^k k!^2 / (2k+1)! u^k as a function of u = 1 - cos(theta/2) in [0, 1], relative error 2e-16: the rotation vector of the unit
 /// quaternion (c, s), c >= 0, is s times this.
 template <class T>
-KARCHER_SHELL_INLINE T angle_over_sine(const T& c) {
+T angle_over_sine(const T& c) {
   static constexpr std::array<double, 21> a = {2.0,
                                                0.6666666666666189,
                                                0.2666666666736505,
@@ -55,12 +55,12 @@ inline constexpr std::array<double, 17> beta_coefficients = {
     6.504254001622579e-09, -2.1533203222780574e-09, 1.8612786898539385e-09, -5.607199399762986e-10, 1.2460443110899903e-10};
 
 template <class T>
-KARCHER_SHELL_INLINE T beta_of(const T& tau) {
+T beta_of(const T& tau) {
   return horner(beta_coefficients, tau * T(1 / pi2));
 }
 /// The value and the first two derivatives in tau.
 template <class T>
-KARCHER_SHELL_INLINE std::array<T, 3> beta_jet(const T& tau) {
+std::array<T, 3> beta_jet(const T& tau) {
   const T x = tau * T(1 / pi2);
   T f(beta_coefficients.back()), d(0.0), dd(0.0);
   for (std::size_t k = beta_coefficients.size() - 1; k > 0; --k) {

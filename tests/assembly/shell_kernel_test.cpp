@@ -226,11 +226,9 @@ TEST(ShellKernel, FindsTheClosestRotationWhereNewtonsMethodFails) {
     if (k.trouble[0] != Trouble::none) continue;
     double expected = 0;
     for (int p = 0; p < e.tables.points; ++p) {
-      double q[6][4], found[4];
-      for (int i = 0; i < 6; ++i)
-        for (int c = 0; c < 4; ++c) q[i][c] = e.q[static_cast<std::size_t>(i)][c];
-      ASSERT_TRUE(shell::closest_rotation(q, e.tables.r_value.data() + p * 6, 6, found));
-      const Mat3<double> rot = rotation(Vec<double, 4>{{found[0], found[1], found[2], found[3]}});
+      Quaternion<double> found;
+      ASSERT_TRUE(shell::closest_rotation(e.q.data(), e.tables.r_value.data() + p * 6, 6, found));
+      const Mat3<double> rot = rotation(found);
       Mat3<double> s, strain, curvature;
       std::array<Mat3<double>, 2> ds{};
       std::array<Vec3<double>, 2> d{};

@@ -130,7 +130,7 @@ RotationJet<S> projected(const std::vector<Mat3<S>>& r, const double* l, const d
 
 /// Rotation vector of a unit quaternion: the square root is taken five times, the rest is the series of the arc sine.
 template <class S>
-Vec3<S> rotation_vector(Vec<S, 4> p) {
+Vec3<S> log_of(Vec<S, 4> p) {
   using std::sqrt;
   if (value_of(p[0]) < 0)
     for (int c = 0; c < 4; ++c) p[c] = -p[c];
@@ -198,7 +198,7 @@ RotationJet<S> averaged(const std::vector<Vec<S, 4>>& r, const double* l, const 
     Mat3<S> g = outer(sum, sum);
     for (std::size_t i = 0; i < r.size(); ++i) {
       const Vec<S, 4> conjugate{{q[0], -q[1], -q[2], -q[3]}};
-      const Vec3<S> t = rotation_vector(product(conjugate, r[i]));
+      const Vec3<S> t = log_of(product(conjugate, r[i]));
       const Mat3<S> d = inverse_right_jacobian(t);
       for (int c = 0; c < 3; ++c) {
         sum[c] += t[c] * l[i];

@@ -97,7 +97,8 @@ std::string PageArrays::packed(nlohmann::ordered_json header) const {
   uLongf size = compressBound(static_cast<uLong>(plain.size()));
   std::string compressed(size, '\0');
   // Level 5: within 2 % of the best size at half the time.
-  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &size, reinterpret_cast<const Bytef*>(plain.data()), static_cast<uLong>(plain.size()), 5) != Z_OK)
+  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &size, reinterpret_cast<const Bytef*>(plain.data()), static_cast<uLong>(plain.size()),
+                5) != Z_OK)
     throw Error("The data of the page cannot be compressed: there is not enough memory.");
   std::string out;
   append_base64(out, compressed.data(), size);

@@ -47,8 +47,8 @@ std::string machine_sentence() {
     if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) processor = line.substr(line.find(": ") + 2);
   utsname system{};
   uname(&system);
-  return fmt::format("{}{} cores, {} {}", processor.empty() ? std::string() : processor + ", ", std::max(1U, std::thread::hardware_concurrency()), system.sysname,
-                     system.machine);
+  return fmt::format("{}{} cores, {} {}", processor.empty() ? std::string() : processor + ", ", std::max(1U, std::thread::hardware_concurrency()),
+                     system.sysname, system.machine);
 }
 
 const OutputArray* find(const std::vector<OutputArray>& arrays, const char* name) {
@@ -131,8 +131,10 @@ StoredState read_state(const json& j, Reader& reader, const Store& store) {
   for (const StoredPart& part : store.parts) {
     StoredValues values;
     if (part.moves) values.displacement = reader.numbers<float>(3 * part.points);
-    for (const StoredArray& a : part.point_data) values.point_data.push_back(reader.numbers<float>(part.points * static_cast<std::size_t>(a.components)));
-    for (const StoredArray& a : part.cell_data) values.cell_data.push_back(reader.numbers<float>(part.cells.size() * static_cast<std::size_t>(a.components)));
+    for (const StoredArray& a : part.point_data)
+      values.point_data.push_back(reader.numbers<float>(part.points * static_cast<std::size_t>(a.components)));
+    for (const StoredArray& a : part.cell_data)
+      values.cell_data.push_back(reader.numbers<float>(part.cells.size() * static_cast<std::size_t>(a.components)));
     state.parts.push_back(std::move(values));
   }
   return state;
@@ -237,8 +239,14 @@ void PageStates::write(int state, double t, const std::vector<OutputPart>& parts
     json list = json::array();
     for (const OutputPart& p : parts) {
       const OutputArray* reference = find(p.point_data, "reference");
-      list.push_back({{"region", p.region}, {"dim", p.dim}, {"order", p.order}, {"points", p.points.size()}, {"cells", p.cells.size()},
-                      {"moves", find(p.point_data, "displacement") != nullptr}, {"point_data", list_of(p.point_data)}, {"cell_data", list_of(p.cell_data)}});
+      list.push_back({{"region", p.region},
+                      {"dim", p.dim},
+                      {"order", p.order},
+                      {"points", p.points.size()},
+                      {"cells", p.cells.size()},
+                      {"moves", find(p.point_data, "displacement") != nullptr},
+                      {"point_data", list_of(p.point_data)},
+                      {"cell_data", list_of(p.cell_data)}});
       for (const OutputCell& c : p.cells) append(numbers, static_cast<std::uint32_t>(c.kind));
       for (const OutputCell& c : p.cells)
         for (const int n : c.nodes) append(numbers, static_cast<std::uint32_t>(n));
@@ -259,7 +267,8 @@ void PageStates::write(int state, double t, const std::vector<OutputPart>& parts
   }
   json named = json::object();
   for (const auto& [name, value] : energies) named[name] = value;
-  append_to_file(file_, record(state_record, json{{"state", state}, {"t", t}, {"energies", named}}.dump(-1, ' ', false, json::error_handler_t::replace), numbers));
+  append_to_file(file_, record(state_record,
+                               json{{"state", state}, {"t", t}, {"energies", named}}.dump(-1, ' ', false, json::error_handler_t::replace), numbers));
 }
 
 }  // namespace karcher

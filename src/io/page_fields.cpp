@@ -1,0 +1,391 @@
+#include "io/page_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <unordered_set>
+
+namespace karcher {
+namespace {
+
+using json = nlohmann::ordered_json;
+using Values = std::vector<float>;
+
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+constexpr double degree = 180 / std::numbers::pi;
+
+bool is_load(const std::string& term) { return term.find("-load") != std::string::npos || term == "load"; }
+
+/// Finds what a part has, by name.
+int index_of(const std::vector<StoredArray>& list, const std::string& name) {
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (list[k].name == name) return static_cast<int>(k);
+  return -1;
+}
+
+class Fields {
+ public:
+  Fields(const Store& store, const std::vector<int>& states, const PageShape& shape, PageArrays& arrays)
+      : store_(store), states_(states), shape_(shape), arrays_(arrays) {}
+
+  json list = json::array(), glyphs = json::array();
+  std::string first_field, first_glyphs;
+
+  /// Numbers at every facet: value(state, facet) of the facet's own cell, or of the cell below it.
+  void add_cell_field(const std::string& name, const std::string& label,
+                      const std::function<float(int part, const StoredValues&, std::size_t cell)>& value) {
+    json numbers = json::array();
+    long bad = 0;
+    for (const int s : states_) {
+      const StoredState& state = store_.states[static_cast<std::size_t>(s)];
+      Values v;
+      for (const PageFacet& f : shape_.facets) {
+        float x = value(f.part, state.parts[static_cast<std::size_t>(f.part)], static_cast<std::size_t>(f.cell));
+        if (std::isnan(x) && f.below_part >= 0)
+          x = value(f.below_part, state.parts[static_cast<std::size_t>(f.below_part)], static_cast<std::size_t>(f.below_cell));
+        bad += !std::isfinite(x) && here(name, f);
+        v.push_back(x);
+      }
+      numbers.push_back(arrays_.add_quantised(v));
+    }
+    list.push_back({{"name", name}, {"label", label}, {"kind", "scalar"}, {"at", "cell"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
+  }
+
+  /// Numbers at every vertex from those of one part's array (index in point_data; -1: the displacement). out: components(kind) numbers.
+  void add_vertex_field(const std::string& name, const std::string& label, const std::string& kind, const std::string& array,
+                        const std::function<void(const double* in, double* out)>& value) {
+    const int size = kind == "direction" ? 3 : 1;
+    json numbers = json::array();
+    long bad = 0;
+    for (const int s : states_) {
+      const StoredState& state = store_.states[static_cast<std::size_t>(s)];
+      Values v(shape_.vertices.size() * static_cast<std::size_t>(size), missing);
+      for (std::size_t i = 0; i < shape_.vertices.size(); ++i) {
+        const auto p = static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[i].facet)].part);
+        const StoredPart& part = store_.parts[p];
+        const bool moved = array == "displacement";
+        const int k = moved ? -1 : index_of(part.point_data, array);
+        if (moved ? !part.moves : k < 0) continue;
+        double in[16], out[3];
+        if (moved)
+          shape_.interpolate(i, state.parts[p].displacement, 3, in);
+        else
+          shape_.interpolate(i, state.parts[p].point_data[static_cast<std::size_t>(k)], part.point_data[static_cast<std::size_t>(k)].components, in);
+        value(in, out);
+        bool fine = true;
+        for (int c = 0; c < size; ++c) {
+          v[i * static_cast<std::size_t>(size) + static_cast<std::size_t>(c)] = static_cast<float>(out[c]);
+          fine = fine && std::isfinite(out[c]);
+        }
+        bad += !fine;
+      }
+      numbers.push_back(arrays_.add_quantised(v, size));
+    }
+    list.push_back({{"name", name}, {"label", label}, {"kind", kind}, {"at", "vertex"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
+  }
+
+  /// Angle in degrees, 0 to 90, between a director and the normal of the deformed surface; per facet at its vertices, averaged (a director without a sense).
+  void add_normal_angle(const std::string& name, const std::string& label, const std::string& array) {
+    json numbers = json::array();
+    long bad = 0;
+    const std::size_t n = shape_.vertices.size();
+    std::vector<double> x(3 * n);
+    for (const int s : states_) {
+      const StoredState& state = store_.states[static_cast<std::size_t>(s)];
+      for (std::size_t i = 0; i < n; ++i) position(i, state, &x[3 * i]);
+      // Normals of the triangles around a vertex, aligned with the first one: the surface need not have two sides.
+      std::vector<Vec3<double>> normal(n, Vec3<double>{});
+      for (std::size_t t = 0; t < shape_.triangle_facets.size(); ++t) {
+        const auto at = [&](std::size_t k) {
+          const double* p = &x[3 * shape_.triangles[3 * t + k]];
+          return Vec3<double>{{p[0], p[1], p[2]}};
+        };
+        const Vec3<double> a = cross(at(1) - at(0), at(2) - at(0));
+        for (std::size_t k = 0; k < 3; ++k) {
+          Vec3<double>& sum = normal[shape_.triangles[3 * t + k]];
+          sum = dot(sum, a) < 0 ? sum - a : sum + a;
+        }
+      }
+      Values v(n, missing);
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto p = static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[i].facet)].part);
+        const int k = index_of(store_.parts[p].point_data, array);
+        if (k < 0 || store_.parts[p].dim != 2) continue;
+        Vec3<double> d;
+        shape_.interpolate(i, state.parts[p].point_data[static_cast<std::size_t>(k)], 3, &d[0]);
+        const Vec3<double> c = cross(d, normal[i]);
+        const double angle = std::atan2(std::sqrt(dot(c, c)), std::abs(dot(d, normal[i]))) * degree;
+        v[i] = static_cast<float>(angle);
+        bad += !std::isfinite(angle);
+      }
+      numbers.push_back(arrays_.add_quantised(v));
+    }
+    list.push_back({{"name", name}, {"label", label}, {"kind", "scalar"}, {"at", "vertex"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
+  }
+
+  /// Things at the nodes of the parts that have the array, thinned to one in every box of an even grid if there are too many.
+  void add_glyphs(const std::string& name, const std::string& kind, const std::string& array, int size, int most,
+                  const std::function<void(const float* in, double* out)>& value) {
+    const auto has = [&](const StoredPart& q) { return index_of(q.point_data, array) >= 0; };
+    const auto first = std::find_if(store_.parts.begin(), store_.parts.end(), has);  // later parts with it lie inside this one
+    if (first == store_.parts.end()) return;
+    const StoredPart& part = *first;
+    const auto p = static_cast<std::size_t>(first - store_.parts.begin());
+    const auto components = static_cast<std::size_t>(part.point_data[static_cast<std::size_t>(index_of(part.point_data, array))].components);
+    std::vector<std::size_t> chosen(part.points);
+    std::iota(chosen.begin(), chosen.end(), 0);
+    for (double boxes = 4 * std::cbrt(most); chosen.size() > static_cast<std::size_t>(most); boxes *= 0.9) chosen = one_in_each_box(part, boxes);
+    Values reference;
+    for (const std::size_t i : chosen)
+      reference.insert(reference.end(), part.reference.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                       part.reference.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+    json numbers = json::array(), displacement = json::array();
+    const auto k = static_cast<std::size_t>(index_of(part.point_data, array));
+    for (const int s : states_) {
+      const StoredValues& values = store_.states[static_cast<std::size_t>(s)].parts[p];
+      Values v, u;
+      for (const std::size_t i : chosen) {
+        double out[6];
+        value(&values.point_data[k][i * components], out);
+        for (int c = 0; c < size; ++c) v.push_back(static_cast<float>(out[c]));
+        if (part.moves)
+          u.insert(u.end(), values.displacement.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                   values.displacement.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+      }
+      numbers.push_back(arrays_.add_quantised(v, size));
+      if (part.moves) displacement.push_back(arrays_.add_quantised(u, 3));
+    }
+    glyphs.push_back({{"name", name},
+                      {"kind", kind},
+                      {"reference", arrays_.add_floats(reference, 3)},
+                      {"displacement", std::move(displacement)},
+                      {"arrays", std::move(numbers)}});
+  }
+
+  /// Place of a vertex at a state.
+  void position(std::size_t vertex, const StoredState& state, double* x) const {
+    const auto p = static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[vertex].facet)].part);
+    shape_.interpolate(vertex, store_.parts[p].reference, 3, x);
+    if (!store_.parts[p].moves) return;
+    double u[3];
+    shape_.interpolate(vertex, state.parts[p].displacement, 3, u);
+    for (int i = 0; i < 3; ++i) x[i] += u[i];
+  }
+
+ private:
+  /// Whether the facet carries this cell array at all; elsewhere "no number" is no news.
+  bool here(const std::string& name, const PageFacet& f) const {
+    if (name == "energy") return true;
+    return index_of(store_.parts[static_cast<std::size_t>(f.part)].cell_data, name) >= 0;
+  }
+
+  static std::vector<std::size_t> one_in_each_box(const StoredPart& part, double boxes) {
+    std::array<float, 3> low{HUGE_VALF, HUGE_VALF, HUGE_VALF}, high{-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
+    for (std::size_t i = 0; i < part.reference.size(); ++i)
+      low[i % 3] = std::min(low[i % 3], part.reference[i]), high[i % 3] = std::max(high[i % 3], part.reference[i]);
+    const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    std::unordered_set<std::uint64_t> taken;
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < part.points; ++i) {
+      std::uint64_t key = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        key = (key << 21) | (static_cast<std::uint64_t>((part.reference[3 * i + c] - low[c]) / size * boxes) & 0x1fffff);
+      if (taken.insert(key).second) out.push_back(i);
+    }
+    return out;
+  }
+
+  const Store& store_;
+  const std::vector<int>& states_;
+  const PageShape& shape_;
+  PageArrays& arrays_;
+};
+
+/// The energy density of all terms that are no loads, then every term and its parts.
+void add_energies(const Store& store, Fields& fields) {
+  const std::string prefix = "energy_density.";
+  std::vector<std::string> names;
+  for (const StoredPart& part : store.parts)
+    for (const StoredArray& a : part.cell_data)
+      if (a.name.rfind(prefix, 0) == 0 && std::find(names.begin(), names.end(), a.name) == names.end()) names.push_back(a.name);
+  const auto is_term = [&](const std::string& name) {
+    return std::find(store.terms.begin(), store.terms.end(), name.substr(prefix.size())) != store.terms.end();
+  };
+  const auto counts = [&](const std::string& name) { return is_term(name) && !is_load(name.substr(prefix.size())); };
+  if (std::any_of(names.begin(), names.end(), counts)) {
+    fields.add_cell_field("energy", "energy density", [&](int part, const StoredValues& v, std::size_t cell) {
+      const StoredPart& p = store.parts[static_cast<std::size_t>(part)];
+      float sum = 0;
+      bool any = false;
+      for (std::size_t k = 0; k < p.cell_data.size(); ++k)
+        if (counts(p.cell_data[k].name)) sum += v.cell_data[k][cell], any = true;
+      return any ? sum : missing;
+    });
+    fields.first_field = "energy";
+  }
+  const bool single = std::count_if(names.begin(), names.end(), counts) == 1;
+  for (const std::string& name : names) {
+    if (single && counts(name)) continue;
+    const std::string rest = name.substr(prefix.size());
+    const std::size_t dot = is_term(name) ? std::string::npos : rest.rfind('.');
+    const std::string label =
+        dot == std::string::npos ? "energy density, " + rest : rest.substr(dot + 1) + " energy density" + (single ? "" : ", " + rest.substr(0, dot));
+    fields.add_cell_field(name, label, [&](int part, const StoredValues& v, std::size_t cell) {
+      const int k = index_of(store.parts[static_cast<std::size_t>(part)].cell_data, name);
+      return k < 0 ? missing : v.cell_data[static_cast<std::size_t>(k)][cell];
+    });
+  }
+}
+
+void normalised(const double* in, int n, double* out) {
+  double square = 0;
+  for (int i = 0; i < n; ++i) square += in[i] * in[i];
+  const double scale = square > 0 ? 1 / std::sqrt(square) : 0;
+  for (int i = 0; i < 3; ++i) out[i] = i < n ? scale * in[i] : 0;
+}
+
+void add_field(const Store& store, const std::string& name, const std::string& manifold, int most_glyphs, Fields& fields) {
+  const auto components = [&](int n) {
+    for (int c = 0; c < n; ++c)
+      fields.add_vertex_field(fmt::format("{}.{}", name, c + 1), fmt::format("{}, component {}", name, c + 1), "scalar", name,
+                              [c](const double* in, double* out) { out[0] = in[c]; });
+  };
+  if (manifold == "SO3" || manifold == "SU2") {
+    const bool triad = manifold == "SO3";
+    // The store has (w, x, y, z), the page wants (x, y, z, w).
+    fields.add_glyphs(triad ? "directors of " + name : "frame of " + name, "frame", name, 4, most_glyphs, [](const float* in, double* out) {
+      for (int c = 0; c < 4; ++c) out[c] = in[(c + 1) % 4];
+    });
+    if (!triad) return components(4);
+    fields.add_vertex_field(name + ".angle", "rotation angle of " + name + " in degrees", "scalar", name, [](const double* in, double* out) {
+      out[0] = 2 * std::atan2(std::sqrt(in[1] * in[1] + in[2] * in[2] + in[3] * in[3]), std::abs(in[0])) * degree;
+    });
+  } else if (manifold == "S1" || manifold == "S2") {
+    const int n = manifold == "S1" ? 2 : 3;
+    fields.add_vertex_field(name, name + " as colour", "direction", name, [n](const double* in, double* out) { normalised(in, n, out); });
+    const bool nematic = std::any_of(store.terms.begin(), store.terms.end(), [](const std::string& t) { return t.rfind("frank-oseen", 0) == 0; });
+    fields.add_glyphs(name, nematic ? "rod" : "arrow", name, 3, most_glyphs, [n](const float* in, double* out) {
+      for (int c = 0; c < 3; ++c) out[c] = c < n ? static_cast<double>(in[c]) : 0;
+    });
+    if (store.deformation.empty()) {
+      fields.first_field = name;
+      fields.first_glyphs = name;
+    }
+    components(n);
+  } else if (manifold == "SPD2" || manifold == "SPD3") {
+    const int n = manifold == "SPD2" ? 2 : 3;
+    fields.add_glyphs(name, "ellipsoid", name, 6, most_glyphs, [n](const float* in, double* out) {
+      if (n == 3) {
+        const int entry[] = {0, 4, 8, 1, 2, 5};
+        for (int c = 0; c < 6; ++c) out[c] = in[entry[c]];
+      } else {  // a flat ellipsoid, as thick as a twentieth of its mean width
+        const double thin = 0.0025 * 0.5 * (static_cast<double>(in[0]) + static_cast<double>(in[3]));
+        const double flat[] = {in[0], in[3], thin, in[1], 0, 0};
+        std::copy_n(flat, 6, out);
+      }
+    });
+    fields.add_vertex_field(name + ".trace", "trace of " + name, "scalar", name,
+                            [n](const double* in, double* out) { out[0] = n == 2 ? in[0] + in[3] : in[0] + in[4] + in[8]; });
+    if (store.deformation.empty()) fields.first_glyphs = name;
+  } else if (manifold.size() == 2 && manifold[0] == 'R') {
+    const int n = manifold[1] - '0';
+    if (name == store.deformation) return;
+    if (n == 1)
+      fields.add_vertex_field(name, name, "scalar", name, [](const double* in, double* out) { out[0] = in[0]; });
+    else
+      components(n);
+    if (store.deformation.empty() && fields.first_field.empty()) fields.first_field = n == 1 ? name : name + ".1";
+  } else {
+    const int n = [&] {
+      for (const StoredPart& p : store.parts)
+        if (const int k = index_of(p.point_data, name); k >= 0) return p.point_data[static_cast<std::size_t>(k)].components;
+      return 0;
+    }();
+    components(std::min(n, 9));
+    if (fields.first_field.empty() && n > 0) fields.first_field = name + ".1";
+  }
+}
+
+}  // namespace
+
+json shape_header(const Store& store, const std::vector<int>& states, const PageShape& shape, int most_glyphs, PageArrays& arrays) {
+  json out = {{"vertices", shape.vertices.size()}, {"cells", shape.facets.size()}};
+  Values reference(3 * shape.vertices.size());
+  double lowest = HUGE_VAL, highest = -HUGE_VAL, size = 0;
+  bool moves = false;
+  for (const StoredPart& p : store.parts) moves = moves || p.moves;
+  for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+    const auto p = static_cast<std::size_t>(shape.facets[static_cast<std::size_t>(shape.vertices[i].facet)].part);
+    double x[3];
+    shape.interpolate(i, store.parts[p].reference, 3, x);
+    for (std::size_t c = 0; c < 3; ++c) reference[3 * i + c] = static_cast<float>(x[c]);
+    lowest = std::min(lowest, x[2]);
+    highest = std::max(highest, x[2]);
+    size = std::max({size, std::abs(x[0]), std::abs(x[1])});
+  }
+  bool flat = highest - lowest <= 1e-6 * size;
+  json list = json::array(), displacement = json::array();
+  for (const int s : states) {
+    const StoredState& state = store.states[static_cast<std::size_t>(s)];
+    list.push_back({{"step", state.state}, {"t", state.t}});
+    if (!moves) continue;
+    Values u(3 * shape.vertices.size(), 0.0F);
+    for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+      const auto p = static_cast<std::size_t>(shape.facets[static_cast<std::size_t>(shape.vertices[i].facet)].part);
+      if (!store.parts[p].moves) continue;
+      double x[3];
+      shape.interpolate(i, state.parts[p].displacement, 3, x);
+      for (std::size_t c = 0; c < 3; ++c) u[3 * i + c] = std::isfinite(x[c]) ? static_cast<float>(x[c]) : 0.0F;
+      flat = flat && std::abs(x[2]) <= 1e-6 * size;
+    }
+    displacement.push_back(arrays.add_quantised(u, 3));
+  }
+  out["flat"] = flat;
+  out["reference"] = arrays.add_floats(reference, 3);
+  out["states"] = std::move(list);
+  out["displacement"] = std::move(displacement);
+  if (!shape.triangles.empty()) {
+    out["triangles"] = arrays.add_integers(shape.triangles, 3);
+    out["triangle_cells"] = arrays.add_integers(shape.triangle_facets);
+  }
+  if (!shape.curves.empty()) {
+    out["curves"] = arrays.add_integers(shape.curves);
+    out["curve_lengths"] = arrays.add_integers(shape.curve_lengths);
+    out["curve_cells"] = arrays.add_integers(shape.curve_facets);
+  }
+  if (!shape.edges.empty()) {
+    out["edges"] = arrays.add_integers(shape.edges);
+    out["edge_lengths"] = arrays.add_integers(shape.edge_lengths);
+  }
+  out["strong_edges"] = shape.strong_edges;
+
+  Fields fields(store, states, shape, arrays);
+  add_energies(store, fields);
+  if (moves) {
+    fields.add_vertex_field("displacement", "displacement", "scalar", "displacement",
+                            [](const double* in, double* v) { v[0] = std::sqrt(in[0] * in[0] + in[1] * in[1] + in[2] * in[2]); });
+    const auto has = [&](const std::string& name) {
+      return std::any_of(store.parts.begin(), store.parts.end(),
+                         [&](const StoredPart& p) { return p.dim == 2 && index_of(p.point_data, name) >= 0; });
+    };
+    for (const auto& [name, manifold] : store.manifolds) {
+      const std::string d3 = has("director3") ? "director3" : name + ".director3";
+      if (manifold == "SO3" && has(d3)) fields.add_normal_angle("normal_angle", "angle of director 3 to the surface normal, in degrees", d3);
+      if (manifold == "S2" && has(name))
+        fields.add_normal_angle("normal_angle", fmt::format("angle of {} to the surface normal, in degrees", name), name);
+    }
+  }
+  for (const auto& [name, manifold] : store.manifolds) add_field(store, name, manifold, most_glyphs, fields);
+  if (fields.first_field.empty() && moves) fields.first_field = "displacement";
+  out["fields"] = std::move(fields.list);
+  out["glyphs"] = std::move(fields.glyphs);
+  out["start"] = {{"field", fields.first_field}, {"glyphs", fields.first_glyphs}};
+  return out;
+}
+
+}  // namespace karcher

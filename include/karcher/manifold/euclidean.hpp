@@ -16,6 +16,7 @@ struct Euclidean {
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numeric_limits<double>::infinity();
 
+  static Vec<double, N> origin() { return {}; }
   template <class T>
   static Vec<T, N> exp(const Vec<T, N>& p, const Vec<T, N>& a) {
     return p + a;

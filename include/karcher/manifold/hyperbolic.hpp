@@ -28,6 +28,8 @@ struct Hyperbolic {
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numeric_limits<double>::infinity();
 
+  /// The lowest point of the sheet.
+  static Vec<double, N + 1> origin() { return {{1.0}}; }
   /// The Minkowski product.
   template <class T>
   static T product(const Vec<T, N + 1>& a, const Vec<T, N + 1>& b) {

@@ -77,6 +77,9 @@ struct Product {
     return product_detail::part<Factor<I>::ambient>(x, ambient_offset[I]);
   }
 
+  static Vec<double, ambient> origin() requires(requires { M::origin(); } && ...) {
+    return by_factor<double>([]<class F, std::size_t I>() { return F::origin(); });
+  }
   template <class T>
   static Vec<T, ambient> exp(const Vec<T, ambient>& p, const Vec<T, ambient>& a) {
     return by_factor<T>([&]<class F, std::size_t I>() { return F::exp(factor<I>(p), factor<I>(a)); });

@@ -27,6 +27,8 @@ struct Rotation {
   static constexpr int dim = 3;
   static constexpr double injectivity_radius = std::numbers::pi;
 
+  /// The identity.
+  static Vec<double, 4> origin() { return {{1.0}}; }
   template <class T>
   static Vec<T, 4> exp(const Vec<T, 4>& p, const Vec<T, 4>& a) {
     return unit_vector::exp(p, a);

@@ -38,6 +38,8 @@ struct Spd {
     return {p.e};
   }
 
+  /// The identity.
+  static Vec<double, N * N> origin() { return point(identity<double, N>()); }
   template <class T>
   static Vec<T, N * N> exp(const Vec<T, N * N>& p, const Vec<T, N * N>& a) {
     const Mat<T, N, N> l = cholesky(matrix(p));

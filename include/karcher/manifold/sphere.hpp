@@ -85,6 +85,8 @@ struct Sphere {
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numbers::pi;
 
+  /// The first unit vector.
+  static Vec<double, N + 1> origin() { return {{1.0}}; }
   template <class T>
   static Vec<T, N + 1> exp(const Vec<T, N + 1>& p, const Vec<T, N + 1>& a) {
     return unit_vector::exp(p, a);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 
 #include "karcher/interpolation/evaluate.hpp"
+#include "karcher/io/summary.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 
@@ -76,6 +78,16 @@ struct Output::Part {
   std::vector<OutputCell> cells;
 };
 
+void set_terms(OutputModel& model, const Functional& functional) {
+  std::vector<std::string> names;
+  model.term_parts.clear();
+  for (const auto& term : functional.terms()) {
+    names.push_back(term->name());
+    model.term_parts.push_back(term->part_names());
+  }
+  model.terms = distinct_names(std::move(names));
+}
+
 Output::Output(OutputModel model) : model_(std::move(model)) {
   // Distinct regions that carry fields, the main one first.
   std::vector<std::size_t> order;
@@ -129,33 +141,46 @@ Output::Output(OutputModel model) : model_(std::move(model)) {
 Output::Output(Output&&) noexcept = default;
 Output::~Output() = default;
 
-// Layout of the energies: part after part, term after term: the number of cells that have the term, then the energy of every cell.
+// Layout of the energies: part of the mesh after part, and for each of them column after column (a term, then its own parts): the number of cells that have
+// the column, then the energy of every cell.
 std::vector<double> Output::cell_energies(const Functional& functional, const Configuration& u) const {
-  const std::size_t terms = functional.terms().size();
+  assert(functional.terms().size() == model_.terms.size());
+  const auto parts_shown = [&](std::size_t term) { return term < model_.term_parts.size() ? model_.term_parts[term].size() : 0; };
+  std::size_t columns = 0;
+  for (std::size_t t = 0; t < model_.terms.size(); ++t) columns += 1 + parts_shown(t);
+  std::vector<std::size_t> begin;
   std::size_t size = 0;
-  for (const auto& part : parts_) size += terms * (1 + part->cells.size());
+  for (const auto& part : parts_) {
+    begin.push_back(size);
+    size += columns * (1 + part->cells.size());
+  }
   std::vector<double> energies(size, 0.0);
   BatchResult result;
-  for (std::size_t t = 0; t < terms; ++t) {
+  std::size_t first_column = 0;
+  for (std::size_t t = 0; t < model_.terms.size(); ++t) {
     const Term& term = *functional.terms()[t];
     for (int b = 0; b < term.batch_count(); ++b) {
       const Batch& batch = term.batch(b);
       term.evaluate(u, b, Want::energy, result);
+      const auto parts_of_term = parts_shown(t) > 0 ? term.batch_part_energies(u, b) : std::vector<std::array<double, native_width>>();
       for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.cells_used); ++lane) {
         const Cell& cell = term.cell(batch.cells[lane]);
         const EntityKey key = key_of(cell);
-        std::size_t begin = 0;
-        for (const auto& part : parts_) {
-          const auto found = part->space->region().dim == dimension(cell.kind) ? part->index.find(key) : part->index.end();
-          const std::size_t block = begin + t * (1 + part->cells.size());
-          begin += terms * (1 + part->cells.size());
-          if (found == part->index.end()) continue;
-          energies[block] += 1;
-          energies[block + 1 + static_cast<std::size_t>(found->second)] +=
-              result.trouble[lane] == Trouble::none ? result.energy[lane] : std::numeric_limits<double>::quiet_NaN();
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+          if (parts_[p]->space->region().dim != dimension(cell.kind)) continue;
+          const auto found = parts_[p]->index.find(key);
+          if (found == parts_[p]->index.end()) continue;
+          const auto add = [&](std::size_t column, double energy) {
+            double* block = energies.data() + begin[p] + column * (1 + parts_[p]->cells.size());
+            block[0] += 1;
+            block[1 + found->second] += result.trouble[lane] == Trouble::none ? energy : std::numeric_limits<double>::quiet_NaN();
+          };
+          add(first_column, result.energy[lane]);
+          for (std::size_t k = 0; k < std::min(parts_shown(t), parts_of_term.size()); ++k) add(first_column + 1 + k, parts_of_term[k][lane]);
         }
       }
     }
+    first_column += 1 + parts_shown(t);
   }
   return energies;
 }
@@ -202,6 +227,12 @@ std::vector<double> nodal_values(const Field& field, int field_index, const std:
 
 std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const double> energies) const {
   const auto rotations = std::count_if(model_.fields.begin(), model_.fields.end(), [](const Field& f) { return is_rotation(*f.manifold); });
+  std::vector<std::string> columns;
+  for (std::size_t t = 0; t < model_.terms.size(); ++t) {
+    columns.push_back(model_.terms[t]);
+    if (t < model_.term_parts.size())
+      for (const std::string& p : model_.term_parts[t]) columns.push_back(model_.terms[t] + "." + p);
+  }
   std::vector<OutputPart> out;
   std::size_t block = 0;
   for (const auto& part : parts_) {
@@ -245,11 +276,11 @@ std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const d
     }
 
     if (!energies.empty())
-      for (const std::string& term : model_.terms) {
+      for (const std::string& column : columns) {
         if (energies[block] > 0) {
           std::vector<double> density;
           for (std::size_t c = 0; c < o.cells.size(); ++c) density.push_back(energies[block + 1 + c] / part->measure[c]);
-          o.cell_data.push_back({"energy_density." + term, 1, std::move(density)});
+          o.cell_data.push_back({"energy_density." + column, 1, std::move(density)});
         }
         block += 1 + o.cells.size();
       }

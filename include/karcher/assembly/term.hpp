@@ -54,6 +54,8 @@ class Term {
   virtual void evaluate(const Configuration& u, int b, Want want, BatchResult& out) const = 0;
   /// Energy of every part, summed over the term's own cells.
   virtual std::vector<double> part_energies(const Configuration&) const { return {}; }
+  /// Energy of every part on every cell of batch b, for pictures; empty if the term cannot tell.
+  virtual std::vector<std::array<double, native_width>> batch_part_energies(const Configuration& /*u*/, int /*b*/) const { return {}; }
   /// Called when the load parameter changes, before evaluations at the new value: data that depends on t is recomputed.
   virtual void set_load_parameter(double /*t*/) {}
   /// Sentences for the user about data that the term can work with but that is suspicious (empty: none).

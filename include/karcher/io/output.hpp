@@ -8,7 +8,8 @@
 /// Point data of a field u:  R^n, S^n, SU(2): ambient coordinates under the field's name.  SO(3): the unit quaternion under the field's name, and the columns
 /// d_1, d_2, d_3 of the rotation as "director1..3" ("<name>.director1..3" if several fields are rotations).  SPD(n): the n x n matrix, row by row.
 /// With a deformation m (R^n, n <= 3): points are m itself, "reference" is the place in the stress-free configuration, "displacement" = m - reference.
-/// Cell data: "energy_density.<term>" = energy of the term on the cell / reference measure of the cell (length, area, volume), for every term on the part.
+/// Cell data: "energy_density.<term>" = energy of the term on the cell / reference measure of the cell (length, area, volume), for every term on the part,
+/// and "energy_density.<term>.<part>" for the parts that a term tells apart.
 
 #include <functional>
 #include <map>
@@ -43,13 +44,17 @@ struct OutputPart {
 };
 
 struct OutputModel {
-  std::vector<Field> fields;
-  int deformation = -1;            ///< index of the field that moves the points; -1: points stay in the mesh
-  std::vector<std::string> terms;  ///< names of the terms of the functional, distinct (summary.hpp)
+  std::vector<Field> fields{};
+  int deformation = -1;                                ///< index of the field that moves the points; -1: points stay in the mesh
+  std::vector<std::string> terms{};                    ///< names of the terms of the functional, all different: see set_terms
+  std::vector<std::vector<std::string>> term_parts{};  ///< names of the parts of every term whose energies are shown, too; may be empty
   /// Stress-free configuration, if it is not the mesh, and the order of its interpolant (mesh/reference_geometry.hpp).
-  std::function<Vec3<double>(const Vec3<double>&)> reference_position;
+  std::function<Vec3<double>(const Vec3<double>&)> reference_position{};
   int reference_order = 2;
 };
+
+/// Fills the names of the functional's terms (distinct_names of summary.hpp) and of their parts.
+void set_terms(OutputModel& model, const Functional& functional);
 
 class Output {
  public:

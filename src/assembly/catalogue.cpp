@@ -12,9 +12,12 @@
 #include "karcher/energy/harmonic.hpp"
 #include "karcher/energy/l2_distance.hpp"
 #include "karcher/error.hpp"
+#include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/hyperbolic.hpp"
 #include "karcher/manifold/rotation.hpp"
 #include "karcher/manifold/spd.hpp"
+#include "karcher/manifold/sphere.hpp"
+#include "karcher/manifold/unitary.hpp"
 #include "karcher/text.hpp"
 
 namespace karcher {

@@ -129,22 +129,19 @@ class ShellTerm final : public Term {
         {out.energy.data(), out.trouble.data(), out.gradient.data(), out.hessian.data()});
   }
 
-  std::vector<double> part_energies(const Configuration& u) const override {
-    std::vector<double> sums(3, 0.0);
-    AlignedVector<double> points;
-    for (int b = 0; b < batch_count(); ++b) {
-      const auto entries = static_cast<std::size_t>(kind(b).tables.points * shell::point_entries * W);
-      const double* first = points_.data() + first_entry_[static_cast<std::size_t>(b)];
-      points.assign(first, first + entries);
-      for (std::size_t part = 0; part < sums.size(); ++part) {
-        write_forms(b, {part == 0, part == 1, part == 2}, points.data());
-        alignas(64) std::array<double, lanes_per_batch> energy;
-        std::array<Trouble, lanes_per_batch> trouble;
-        run(u, b, Want::energy, points.data(), {energy.data(), trouble.data()});
-        for (int lane = 0; lane < batch(b).cells_used; ++lane) sums[part] += energy[static_cast<std::size_t>(lane)];
-      }
+  std::vector<std::array<double, lanes_per_batch>> batch_part_energies(const Configuration& u, int b) const override {
+    const auto entries = static_cast<std::size_t>(kind(b).tables.points * shell::point_entries * W);
+    const double* first = points_.data() + first_entry_[static_cast<std::size_t>(b)];
+    AlignedVector<double> points(first, first + entries);
+    std::vector<std::array<double, lanes_per_batch>> parts(3);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      write_forms(b, {part == 0, part == 1, part == 2}, points.data());
+      alignas(64) std::array<double, lanes_per_batch> energy;
+      std::array<Trouble, lanes_per_batch> trouble;
+      run(u, b, Want::energy, points.data(), {energy.data(), trouble.data()});
+      parts[part] = energy;
     }
-    return sums;
+    return parts;
   }
 
   void set_load_parameter(double t) override {

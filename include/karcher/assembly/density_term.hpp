@@ -89,10 +89,9 @@ class DensityTerm : public Term {
     evaluate_impl(u, b, want, out, std::make_index_sequence<F>{});
   }
 
-  std::vector<double> part_energies(const Configuration& u) const override {
-    std::vector<double> sums(part_names().size(), 0.0);
-    if (!sums.empty())
-      for (int b = 0; b < batch_count(); ++b) add_parts(u, b, sums, std::make_index_sequence<F>{});
+  std::vector<std::array<double, native_width>> batch_part_energies(const Configuration& u, int b) const override {
+    std::vector<std::array<double, native_width>> sums(part_names().size());
+    if (!sums.empty()) add_parts(u, b, sums, std::make_index_sequence<F>{});
     return sums;
   }
 
@@ -238,7 +237,7 @@ class DensityTerm : public Term {
   }
 
   template <std::size_t... f>
-  void add_parts(const Configuration& u, int b, std::vector<double>& sums, std::index_sequence<f...>) const {
+  void add_parts(const Configuration& u, int b, std::vector<std::array<double, native_width>>& sums, std::index_sequence<f...>) const {
     using Rho = std::decay_t<decltype(density(0, 0))>;
     if constexpr (requires(const Rho& rho) { rho.parts(FieldJet<M<f>, D, T>{}...); }) {
       States states;
@@ -248,7 +247,7 @@ class DensityTerm : public Term {
         const auto parts = density(b, q).parts(std::get<f>(states).interpolation.jet()...);
         const T weight = batches_.point(b, q).weight;
         for (std::size_t p = 0; p < parts.size(); ++p)
-          for (int lane = 0; lane < batches_.batch(b).cells_used; ++lane) sums[p] += karcher::lane(weight * parts[p], lane);
+          for (int lane = 0; lane < W; ++lane) sums[p][static_cast<std::size_t>(lane)] += karcher::lane(weight * parts[p], lane);
       }
     }
   }

@@ -46,16 +46,24 @@ class Term {
   virtual ~Term() = default;
   /// Key under "energies" in summary.json, e.g. "cosserat-shell", "volume-load".
   virtual const std::string& name() const = 0;
-  /// Parts that the density can tell apart (empty: none); same order as part_energies().
+  /// Parts that the density can tell apart (empty: none); same order as batch_part_energies().
   virtual std::vector<std::string> part_names() const { return {}; }
   virtual int batch_count() const = 0;
   virtual const Batch& batch(int b) const = 0;
   /// Energy of each cell of batch b, and gradient and Hessian when wanted. Thread of control returns normally in every case; trouble is reported by lane.
   virtual void evaluate(const Configuration& u, int b, Want want, BatchResult& out) const = 0;
-  /// Energy of every part, summed over the term's own cells.
-  virtual std::vector<double> part_energies(const Configuration&) const { return {}; }
-  /// Energy of every part on every cell of batch b, for pictures; empty if the term cannot tell.
+  /// Energy of every part on every cell of batch b; empty if there are no parts.
   virtual std::vector<std::array<double, native_width>> batch_part_energies(const Configuration& /*u*/, int /*b*/) const { return {}; }
+  /// Energy of every part, summed over the term's own cells.
+  std::vector<double> part_energies(const Configuration& u) const {
+    std::vector<double> sums(part_names().size(), 0.0);
+    for (int b = 0; b < batch_count() && !sums.empty(); ++b) {
+      const auto parts = batch_part_energies(u, b);
+      for (std::size_t p = 0; p < parts.size(); ++p)
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch(b).cells_used); ++lane) sums[p] += parts[p][lane];
+    }
+    return sums;
+  }
   /// Called when the load parameter changes, before evaluations at the new value: data that depends on t is recomputed.
   virtual void set_load_parameter(double /*t*/) {}
   /// Sentences for the user about data that the term can work with but that is suspicious (empty: none).

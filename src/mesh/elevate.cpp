@@ -8,8 +8,11 @@
 namespace karcher {
 
 Vec3<double> combine(const std::vector<double>& weights, const std::vector<Vec3<double>>& points) {
-  Vec3<double> p = points[0];
-  for (std::size_t i = 1; i < points.size(); ++i) p += weights[i] * (points[i] - points[0]);
+  const auto largest = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  const Vec3<double> base = points[largest];
+  Vec3<double> p = base;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (weights[i] != 0) p += weights[i] * (points[i] - base);
   return p;
 }
 
@@ -29,7 +32,7 @@ Mesh elevate(std::vector<Cell> cells, int order, const Map& map) {
   std::vector<char> placed(static_cast<std::size_t>(vertices), 0);
   for (Cell& c : cells) {
     mesh.dim = std::max(mesh.dim, dimension(c.kind));
-    const auto& points = lagrange_nodes(c.kind, order);
+    const auto& points = lattice(c.kind, order);
     const std::vector<NodeKey> keys = lattice_keys(c, order);
     std::vector<int> nodes;
     nodes.reserve(keys.size());
@@ -43,7 +46,7 @@ Mesh elevate(std::vector<Cell> cells, int order, const Map& map) {
       }
       if (placed[place]) continue;
       placed[place] = 1;
-      mesh.nodes[place] = map(i < c.parameters.size() ? c.parameters[i] : combine(vertex_functions(c.kind, points[i]), c.parameters));
+      mesh.nodes[place] = map(i < c.parameters.size() ? c.parameters[i] : combine(vertex_functions(c.kind, points[i], order), c.parameters));
     }
     c.order = order;
     c.nodes = std::move(nodes);

@@ -16,7 +16,7 @@ using Map = std::function<Vec3<double>(const Vec3<double>&)>;
 /// \throws InputError as check_identity does
 Mesh elevate(std::vector<Cell> cells, int order, const Map& map);
 
-/// p_0 + sum_i w_i (p_i - p_0) with weights of sum 1: exact in every coordinate that all p_i share.
+/// sum_i w_i p_i with weights of sum 1, exact in every coordinate that the points of non-zero weight share.
 Vec3<double> combine(const std::vector<double>& weights, const std::vector<Vec3<double>>& points);
 
 }  // namespace karcher

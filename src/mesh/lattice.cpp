@@ -111,4 +111,24 @@ std::vector<double> vertex_functions(CellKind kind, const Vec3<double>& xi) {
   return value;
 }
 
+std::vector<double> vertex_functions(CellKind kind, const LatticePoint& point, int q) {
+  const bool simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
+  std::vector<double> value;
+  for (const LatticePoint& c : corners(kind)) {
+    int numerator = 1, denominator = 1;
+    if (simplex) {
+      const int inside = point[0] * c[0] + point[1] * c[1] + point[2] * c[2];
+      numerator = c == LatticePoint{0, 0, 0} ? q - point[0] - point[1] - point[2] : inside;
+      denominator = q;
+    } else {
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(kind)); ++a) {
+        numerator *= c[a] ? point[a] : q - point[a];
+        denominator *= q;
+      }
+    }
+    value.push_back(static_cast<double>(numerator) / denominator);
+  }
+  return value;
+}
+
 }  // namespace karcher

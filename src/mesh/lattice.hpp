@@ -30,5 +30,7 @@ const std::vector<LatticePoint>& corners(CellKind kind);
 
 /// Values of the vertex functions (order 1) at a reference point: barycentric or tensor product coordinates.
 std::vector<double> vertex_functions(CellKind kind, const Vec3<double>& xi);
+/// The same at point / q, exactly zero for the vertices that do not matter there.
+std::vector<double> vertex_functions(CellKind kind, const LatticePoint& point, int q);
 
 }  // namespace karcher

@@ -88,7 +88,8 @@ class NearestInCell {
     }
   }
 
-  /// Gauss-Newton from the middle of the part, damped by a trial of the distance; if it leaves the part, the part's own facets are searched.
+  /// Newton (Gauss-Newton where the Hessian is indefinite) from the middle of the part, damped so that the distance falls; if that ends outside of the part,
+  /// its own facets are searched.
   void search(const Part& part) {
     if (part.kind == CellKind::vertex) return offer(part.corners[0]);
     const int dim = dimension(part.kind);
@@ -99,18 +100,28 @@ class NearestInCell {
     for (int iteration = 0; iteration < 50 && !stationary; ++iteration) {
       const GeometryJet g = geometry(mesh_, cell_, in_cell(s));
       const Vec3<double> residual = g.x - point_;
-      std::array<Vec3<double>, 3> tangent;
+      std::array<Vec3<double>, 3> direction, tangent;
+      Vec3<double> descent;
       for (int a = 0; a < dim; ++a) {
-        const Vec3<double> direction = direction_of(part, a);
-        for (int i = 0; i < 3; ++i) tangent[at(a)] += direction[i] * g.d[at(i)];
+        direction[at(a)] = direction_of(part, a);
+        for (int i = 0; i < 3; ++i) tangent[at(a)] += direction[at(a)][i] * g.d[at(i)];
+        descent[a] = -dot(tangent[at(a)], residual);
       }
-      Mat3<double> normal;
-      Vec3<double> step;
-      for (int a = 0; a < dim; ++a) {
-        step[a] = -dot(tangent[at(a)], residual);
-        for (int b = 0; b < dim; ++b) normal(a, b) = dot(tangent[at(a)], tangent[at(b)]);
+      Mat3<double> gauss, bend;  // residual . second derivatives, in the cell's coordinates
+      constexpr std::array<std::array<int, 3>, 3> pair = {{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) bend(i, j) = dot(residual, g.dd[at(pair[at(i)][at(j)])]);
+      Mat3<double> hessian;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b) {
+          gauss(a, b) = dot(tangent[at(a)], tangent[at(b)]);
+          hessian(a, b) = gauss(a, b) + dot(direction[at(a)], bend * direction[at(b)]);
+        }
+      Vec3<double> step = descent;
+      if (!solve(hessian, step, dim)) {
+        step = descent;
+        if (!solve(gauss, step, dim)) break;
       }
-      if (!solve(normal, step, dim)) break;
       stationary = norm2(step) < 1e-26;
       double length = 1;
       while (length > 1e-3 && norm2(geometry(mesh_, cell_, in_cell(s + length * step)).x - point_) > norm2(residual) * (1 + 1e-12)) length /= 2;

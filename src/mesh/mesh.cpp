@@ -24,7 +24,7 @@ struct Part {
 Cell trace(const Part& part) {
   Cell entity;
   entity.kind = part.kind;
-  entity.order = part.cell.order;
+  entity.order = part.kind == CellKind::vertex ? 1 : part.cell.order;
   entity.nodes.reserve(part.nodes.size());
   for (int n : part.nodes) entity.nodes.push_back(part.cell.nodes[at(n)]);
   if (!part.cell.parameters.empty())

@@ -105,7 +105,7 @@ Plan make_plan(CellKind kind, int order, std::size_t diagonal) {
   }
   for (const LatticePoint& point : points) {
     const Vec3<double> xi{{static_cast<double>(point[0]) / q, static_cast<double>(point[1]) / q, static_cast<double>(point[2]) / q}};
-    plan.weights.push_back(vertex_functions(kind, xi));
+    plan.weights.push_back(vertex_functions(kind, point, q));
     plan.values.push_back(lagrange(kind, order, xi).value);
     for (double& value : plan.values.back())  // functions that vanish on a face must not leak across it by rounding
       if (std::abs(value) < 1e-14) value = 0;
@@ -113,14 +113,12 @@ Plan make_plan(CellKind kind, int order, std::size_t diagonal) {
   return plan;
 }
 
-/// sum_i N_i x_i, exact in every coordinate that the nodes with N_i != 0 share (sum N_i = 1).
+/// sum_i N_i x_i
 Vec3<double> interpolate(const Mesh& mesh, const Cell& cell, const std::vector<double>& values) {
-  const auto largest = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-  const Vec3<double> base = mesh.nodes[at(cell.nodes[largest])];
-  Vec3<double> x = base;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] != 0) x += values[i] * (mesh.nodes[at(cell.nodes[i])] - base);
-  return x;
+  std::vector<Vec3<double>> x;
+  x.reserve(cell.nodes.size());
+  for (int n : cell.nodes) x.push_back(mesh.nodes[at(n)]);
+  return combine(values, x);
 }
 
 class Refiner {

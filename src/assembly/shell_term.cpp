@@ -74,23 +74,19 @@ struct Constants {
   }
 };
 
-/// Whether the upper triangle of a symmetric 4 x 4 matrix is that of a positive semidefinite one, up to rounding.
+/// Whether the upper triangle of a symmetric 4 x 4 matrix is that of a positive semidefinite one, up to rounding: Cholesky of the matrix scaled to a unit
+/// diagonal (so that one tolerance fits stretching and bending) and shifted a little.
 bool semidefinite(const std::array<double, 10>& upper) {
-  double a[4][4], scale = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = i; j < 4; ++j) a[i][j] = a[j][i] = upper[ShellForm<double>::index(i, j)];
-  // Rows are scaled to a unit diagonal, so that one tolerance fits stretching and bending.
-  std::array<double, 4> d{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (a[i][i] < 0) return false;
-    d[i] = a[i][i] > 0 ? 1 / std::sqrt(a[i][i]) : 0;
-    scale = std::max(scale, d[i]);
+  double a[4][4], scale[4];
+  for (int i = 0; i < 4; ++i) {
+    const double d = upper[ShellForm<double>::index(i, i)];
+    if (!(d >= 0)) return false;
+    scale[i] = d > 0 ? 1 / std::sqrt(d) : 0;
   }
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) a[i][j] *= d[i] * d[j];
+  for (int i = 0; i < 4; ++i)
+    for (int j = i; j < 4; ++j) a[i][j] = a[j][i] = scale[i] * scale[j] * upper[ShellForm<double>::index(i, j)] + (i == j ? 1e-9 : 0.0);
   for (int p = 0; p < 4; ++p) {
-    if (a[p][p] < -1e-9) return false;
-    if (a[p][p] < 1e-9) continue;
+    if (!(a[p][p] > 0)) return false;
     for (int i = p + 1; i < 4; ++i)
       for (int j = p + 1; j < 4; ++j) a[i][j] -= a[i][p] * a[p][j] / a[p][p];
   }

@@ -18,12 +18,20 @@ std::vector<std::vector<double>> geometry_values(CellKind kind, int geometry_ord
   return values;
 }
 
+/// About as many as a large mesh has: order^dim in a cube, dim! times fewer in a simplex.
+std::size_t expected_nodes(const Region& region, int order) {
+  const Cell& cell = region.cells.front();
+  double nodes = static_cast<double>(region.cells.size()) * reference_measure(cell.kind);
+  for (int d = 0; d < dimension(cell.kind); ++d) nodes *= order;
+  return static_cast<std::size_t>(nodes);
+}
+
 }  // namespace
 
 Space::Space(std::shared_ptr<const Mesh> mesh, Region region, int order) : mesh_(std::move(mesh)), region_(std::move(region)), order_(order) {
   if (order < 1 || order > 3) throw InputError("A field has order 1, 2 or 3, not " + std::to_string(order) + ".");
   if (region_.cells.empty()) throw InputError("The region \"" + region_.name + "\" has no cells to carry a field.");
-  numbering_ = NodeNumbering(region_.cells.size());
+  numbering_ = NodeNumbering(expected_nodes(region_, order));
   cell_nodes_.reserve(region_.cells.size());
   std::map<std::pair<CellKind, int>, std::vector<std::vector<double>>> values;
   for (const Cell& cell : region_.cells) {

@@ -137,52 +137,64 @@ std::vector<int> edge_interior(const PageFacet& facet, int order, std::size_t e)
   return out;
 }
 
-/// Pieces that a curve with second derivative c, chord l and tolerance d needs: deviation c / (8 n^2), turn c / (n l).
+/// Pieces that a curve of length about l and second derivative c across it needs for a deviation d: c / (8 n^2) <= d, and a turn c / (n l) that shading hides.
 int pieces_for(double c, double l, double d) {
   int n = 1;
   while (n < finest && (c / (8.0 * n * n) > d || c > largest_turn * n * std::max(l, d))) n *= 2;
   return n;
 }
 
+/// Length of the part of v that is perpendicular to a. The part along it moves points on the curve, not the curve.
+double across(const Vec3<double>& v, const Vec3<double>& a) {
+  const double l = length(a);
+  return l > 0 ? length(cross(v, a)) / l : length(v);
+}
+
 int pieces_of(const Edge& edge, int order, const Positions& positions, double d) {
   int n = 1;
-  for (std::size_t k = 0; k < positions.count() && n < finest; ++k) {
+  for (std::size_t k = 0; order > 1 && k < positions.count() && n < finest; ++k) {
     const Vec3<double> a = positions.at(k, edge.part, edge.nodes[0]), b = positions.at(k, edge.part, edge.nodes[1]);
     double c = 0;
-    if (order == 2) c = 4 * length(a + b - 2.0 * positions.at(k, edge.part, edge.nodes[2]));
+    if (order == 2) c = across(4.0 * (a + b - 2.0 * positions.at(k, edge.part, edge.nodes[2])), b - a);
     if (order == 3) {  // the second derivative of a cubic is linear: its ends bound it
       const Vec3<double> p = positions.at(k, edge.part, edge.nodes[2]), q = positions.at(k, edge.part, edge.nodes[3]);
-      c = 9 * std::max(length(2.0 * a - 5.0 * p + 4.0 * q - b), length(2.0 * b - 5.0 * q + 4.0 * p - a));
+      c = 9 * std::max(across(2.0 * a - 5.0 * p + 4.0 * q - b, b - a), across(2.0 * b - 5.0 * q + 4.0 * p - a, b - a));
     }
     if (std::isfinite(c)) n = std::max(n, pieces_for(c, length(b - a), d));
   }
   return n;
 }
 
-/// Pieces for the inside of a face: second derivatives at its centre.
+/// First and second derivatives of the basis at the centre of a face.
+const Shape& at_centre(CellKind kind, int order) {
+  static std::map<std::array<int, 2>, Shape> known;
+  const auto [at, first] = known.try_emplace({static_cast<int>(kind), order});
+  const double centre = kind == CellKind::triangle ? 1.0 / 3 : 0.5;
+  if (first) at->second = lagrange(kind, order, {{centre, centre, 0}});
+  return at->second;
+}
+
+/// Pieces for the inside of a face: its second fundamental form at the centre.
 int pieces_inside(const PageFacet& facet, int order, const Positions& positions, double d) {
   if (facet.kind == CellKind::triangle && order == 1) return 1;
-  const Shape& shape = [&]() -> const Shape& {
-    static std::map<std::array<int, 2>, Shape> known;
-    const auto [at, first] = known.try_emplace({static_cast<int>(facet.kind), order});
-    const double centre = facet.kind == CellKind::triangle ? 1.0 / 3 : 0.5;
-    if (first) at->second = lagrange(facet.kind, order, {{centre, centre, 0}});
-    return at->second;
-  }();
+  const Shape& shape = at_centre(facet.kind, order);
   int n = 1;
   for (std::size_t k = 0; k < positions.count() && n < finest; ++k) {
-    std::array<Vec3<double>, 3> dd{};
-    std::array<Vec3<double>, 2> t{};
+    Vec3<double> xx{}, xy{}, yy{}, x{}, y{};
     for (std::size_t i = 0; i < facet.nodes.size(); ++i) {
-      const Vec3<double> x = positions.at(k, facet.part, facet.nodes[i]);
-      dd[0] = dd[0] + shape.hessian[i][0] * x;
-      dd[1] = dd[1] + shape.hessian[i][1] * x;
-      dd[2] = dd[2] + shape.hessian[i][3] * x;
-      t[0] = t[0] + shape.gradient[i][0] * x;
-      t[1] = t[1] + shape.gradient[i][1] * x;
+      const Vec3<double> p = positions.at(k, facet.part, facet.nodes[i]);
+      xx += shape.hessian[i][0] * p;
+      xy += shape.hessian[i][1] * p;
+      yy += shape.hessian[i][3] * p;
+      x += shape.gradient[i][0] * p;
+      y += shape.gradient[i][1] * p;
     }
-    const double c = std::max({length(dd[0]), 2 * length(dd[1]), length(dd[2])});
-    if (std::isfinite(c)) n = std::max(n, pieces_for(c, std::min(length(t[0]), length(t[1])), d));
+    Vec3<double> normal = cross(x, y);
+    const double area = length(normal), lx = length(x), ly = length(y);
+    if (!(area > 0) || !std::isfinite(area)) continue;
+    normal = (1 / area) * normal;
+    n = std::max({n, pieces_for(std::abs(dot(normal, xx)), lx, d), pieces_for(std::abs(dot(normal, yy)), ly, d),
+                  pieces_for(2 * std::abs(dot(normal, xy)), std::max(lx, ly), d)});
   }
   return n;
 }

@@ -50,9 +50,9 @@ struct Spd {
     const Mat<T, N, N> l = cholesky(matrix(p)), inverse = lower_inverse(l);
     const Mat<T, N, N> difference = lower_congruence(inverse, matrix(q) - matrix(p));
     // Near points by log(I + .), whose error is relative to their distance; far points by log, whose argument must not be a difference.
-    T size = T(0.0);
-    for (const T& x : difference.e) size += x * x;
-    const auto near = base(size) < Base<T>(0.25);
+    Base<T> size2 = Base<T>(0.0);
+    for (const T& x : difference.e) size2 += base(x) * base(x);
+    const auto near = size2 < Base<T>(0.25);
     if (all(near)) return point(lower_congruence(l, symmetric_log1p(difference)));
     const Mat<T, N, N> far_log = symmetric_log(lower_congruence(inverse, matrix(q)));
     if (!any(near)) return point(lower_congruence(l, far_log));

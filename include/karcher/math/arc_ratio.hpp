@@ -15,23 +15,25 @@
 #include <numbers>
 
 #include "karcher/math/elementary.hpp"
+#include "karcher/math/polynomial.hpp"
 #include "karcher/math/tensor.hpp"
 
 namespace karcher {
 
 namespace arc_detail {
 
-/// a^(n) by Terms terms of its series.
-template <int Terms, class T>
-T series(int n, const T& z) {
-  T s = T(1.0);
-  for (int k = Terms - 1; k > 0; --k) {
-    const double ratio = (n + k) * static_cast<double>(n + k) / ((n + k + 0.5) * k);
-    s = T(1.0) + T(ratio) * z * s;
-  }
-  double factor = 1;
-  for (int j = 1; j <= n; ++j) factor *= -0.5 * j * j / (j + 0.5);
-  return T(factor) * s;
+/// a^(Order) by Terms terms of its series in z.
+template <int Terms, int Order, class T>
+T series(const T& z) {
+  static constexpr auto coefficients = [] {
+    std::array<double, static_cast<std::size_t>(Terms)> c{};
+    c[0] = 1;
+    for (int j = 1; j <= Order; ++j) c[0] *= -0.5 * j * j / (j + 0.5);
+    for (int k = 1; k < Terms; ++k)
+      c[static_cast<std::size_t>(k)] = c[static_cast<std::size_t>(k - 1)] * (Order + k) * (Order + k) / ((Order + k + 0.5) * k);
+    return c;
+  }();
+  return polynomial(coefficients, z);
 }
 
 /// a, ..., a^(Order) for z around 0: the two highest by their series, the others by the recursion downwards, whose terms have one sign for c < 1.
@@ -39,13 +41,11 @@ template <int Terms, int Order, class T>
 std::array<T, static_cast<std::size_t>(Order + 1)> by_series(const T& c) {
   std::array<T, static_cast<std::size_t>(Order + 1)> a;
   const T z = T(0.5) * (T(1.0) - c), w = (T(1.0) - c) * (T(1.0) + c);
-  for (int n = Order; n >= 0; --n) {
+  a[Order] = series<Terms, Order>(z);
+  if constexpr (Order > 0) a[Order - 1] = series<Terms, Order - 1>(z);
+  for (int n = Order - 2; n >= 0; --n) {
     const auto i = static_cast<std::size_t>(n);
-    if (n >= Order - 1) {
-      a[i] = series<Terms>(n, z);
-    } else {
-      a[i] = (w * a[i + 2] - T(2.0 * n + 3.0) * c * a[i + 1]) * T(1.0 / ((n + 1.0) * (n + 1.0)));
-    }
+    a[i] = (w * a[i + 2] - T(2.0 * n + 3.0) * c * a[i + 1]) * T(1.0 / ((n + 1.0) * (n + 1.0)));
   }
   return a;
 }
@@ -60,7 +60,7 @@ T value(const T& c) {
   const auto halved = (right < T(0.5)) | (right > T(1.5));
   const T half = sqrt(T(0.5) * (T(1.0) + right));
   const T argument = select(halved, half, right);
-  T a = series<34>(0, T(0.5) * (T(1.0) - min(argument, T(1.5))));
+  T a = series<34, 0>(T(0.5) * (T(1.0) - min(argument, T(1.5))));
   a = select(halved, a / half, a);
   if (any(argument > T(1.5)))
     for (int l = 0; l < lanes<T>; ++l)

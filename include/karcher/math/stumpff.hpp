@@ -12,14 +12,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "karcher/math/polynomial.hpp"
 #include "karcher/math/scalar.hpp"
 
 namespace karcher {
 
 namespace stumpff_detail {
-
-template <int K>
-using Indices = std::array<double, static_cast<std::size_t>(K)>;
 
 /// 1/k!
 constexpr double inverse_factorial(int k) {
@@ -28,22 +26,29 @@ constexpr double inverse_factorial(int k) {
   return 1 / f;
 }
 
-/// sum_{j < Terms} (-tau)^j / (k + 2j)!, nested so that every coefficient is a constant.
-template <int Terms, class T>
-T series(int k, const T& tau) {
-  T s = T(inverse_factorial(k + 2 * (Terms - 1)));
-  for (int j = Terms - 2; j >= 0; --j) s = T(inverse_factorial(k + 2 * j)) - tau * s;
-  return s;
+/// sum_{j < Terms} (-tau)^j / (k + 2j)!
+template <int Terms, int K, class T>
+T series(const T& tau) {
+  static constexpr auto coefficients = [] {
+    std::array<double, static_cast<std::size_t>(Terms)> c{};
+    for (int j = 0; j < Terms; ++j) c[static_cast<std::size_t>(j)] = (j % 2 == 0 ? 1 : -1) * inverse_factorial(K + 2 * j);
+    return c;
+  }();
+  return polynomial(coefficients, tau);
 }
 
 /// c_0 ... c_K: the two last by their series, the others by recursion downwards, in which errors do not grow.
 template <int Terms, int K, class T>
 std::array<T, static_cast<std::size_t>(K + 1)> by_series(const T& tau) {
+  static constexpr auto inverse = [] {
+    std::array<double, static_cast<std::size_t>(K + 1)> f{};
+    for (int k = 0; k <= K; ++k) f[static_cast<std::size_t>(k)] = inverse_factorial(k);
+    return f;
+  }();
   std::array<T, static_cast<std::size_t>(K + 1)> c;
-  for (int k = K; k >= 0; --k) {
-    const auto i = static_cast<std::size_t>(k);
-    c[i] = k > K - 2 ? series<Terms>(k, tau) : T(inverse_factorial(k)) - tau * c[i + 2];
-  }
+  c[K] = series<Terms, K>(tau);
+  if constexpr (K > 0) c[K - 1] = series<Terms, K - 1>(tau);
+  for (std::size_t k = K - 1; k-- > 0;) c[k] = T(inverse[k]) - tau * c[k + 2];
   return c;
 }
 
@@ -58,9 +63,8 @@ std::array<double, static_cast<std::size_t>(K + 1)> by_recursion(double tau) {
   return c;
 }
 
-inline constexpr double small = 0.6;          // 10 terms leave 0.6^10 / 20!
-inline constexpr double large = 10.0;         // just above pi^2; 18 terms leave 10^18 / 36!, and cancellation costs a factor of four
-inline constexpr double largest_angle = 700;  // cosh beyond is infinite soon
+inline constexpr double small = 0.6;   // 10 terms leave 0.6^10 / 20!
+inline constexpr double large = 10.0;  // just above pi^2; 18 terms leave 10^18 / 36!, and cancellation costs a factor of four
 
 }  // namespace stumpff_detail
 

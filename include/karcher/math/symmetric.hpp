@@ -166,8 +166,8 @@ void set_value(Dual<U, D>& x, const Base<U>& v) {
 }
 
 /// sum_k c_k h_k(u) over Terms terms, u with sum zero, K numbers: h_k = -e_2 h_(k-2) + e_3 h_(k-3) - e_4 h_(k-4).
-template <int Terms, std::size_t K, class T, class C>
-T homogeneous_series(const std::array<T, K>& u, C coefficient) {
+template <std::size_t Terms, std::size_t K, class T>
+T homogeneous_series(const std::array<T, K>& u, const std::array<double, Terms>& c) {
   T e2 = T(0.0), e3 = T(0.0), e4 = T(0.0);
   for (std::size_t i = 0; i < K; ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -177,19 +177,16 @@ T homogeneous_series(const std::array<T, K>& u, C coefficient) {
         for (std::size_t l = 0; l < k; ++l) e4 += u[i] * u[j] * u[k] * u[l];
       }
     }
-  std::array<T, static_cast<std::size_t>(Terms)> h;
+  std::array<T, Terms> h;
   h[0] = T(1.0);
   h[1] = T(0.0);
-  T s = T(coefficient(0));
-  for (int n = 2; n < Terms; ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    T x = -(e2 * h[i - 2]);
-    if constexpr (K >= 3)
-      if (n >= 3) x += e3 * h[i - 3];
-    if constexpr (K >= 4)
-      if (n >= 4) x -= e4 * h[i - 4];
-    h[i] = x;
-    s += T(coefficient(n)) * x;
+  T s = T(c[0]);
+#pragma GCC unroll 40
+  for (std::size_t n = 2; n < Terms; ++n) {
+    h[n] = -(e2 * h[n - 2]);
+    if (K >= 3 && n >= 3) h[n] += e3 * h[n - 3];
+    if (K >= 4 && n >= 4) h[n] -= e4 * h[n - 4];
+    s += T(c[n]) * h[n];
   }
   return s;
 }
@@ -207,11 +204,18 @@ struct Exponential {
   }
   template <std::size_t K, class T>
   static T near(const T& mean, const std::array<T, K>& u) {
-    return function_detail::plain_exp(mean) * homogeneous_series<26>(u, [](int k) {
-             double f = 1;
-             for (int i = 2; i <= k + static_cast<int>(K) - 1; ++i) f /= i;
-             return f;
-           });
+    // 1/(k + K - 1)!
+    static constexpr auto coefficients = [] {
+      std::array<double, 26> c{};
+      double f = 1;
+      for (std::size_t i = 2; i < K; ++i) f /= static_cast<double>(i);
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        c[k] = f;
+        f /= static_cast<double>(k + K);
+      }
+      return c;
+    }();
+    return function_detail::plain_exp(mean) * homogeneous_series(u, coefficients);
   }
 };
 
@@ -232,10 +236,13 @@ struct Logarithm {
     T factor = T(1.0);
     for (std::size_t i = 0; i < K; ++i) u[i] = u[i] * r;
     for (std::size_t i = 1; i < K; ++i) factor = factor * r;
-    return factor * homogeneous_series<36>(u, [](int k) {
-             const int n = k + static_cast<int>(K) - 1;
-             return (n % 2 == 1 ? 1.0 : -1.0) / n;
-           });
+    // of log(1 + x): (-1)^(n+1)/n, n = k + K - 1
+    static constexpr auto coefficients = [] {
+      std::array<double, 36> c{};
+      for (std::size_t k = 0; k < c.size(); ++k) c[k] = ((k + K) % 2 == 0 ? 1.0 : -1.0) / static_cast<double>(k + K - 1);
+      return c;
+    }();
+    return factor * homogeneous_series(u, coefficients);
   }
 };
 

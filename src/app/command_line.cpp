@@ -1,0 +1,111 @@
+#include "app/command_line.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <functional>
+
+#include "app/launch.hpp"
+#include "app/ranks.hpp"
+#include "app/verbs.hpp"
+#include "app/view.hpp"
+
+namespace karcher::app {
+namespace {
+
+void reading_options(CLI::App& verb, std::filesystem::path& file, ReadOptions& read) {
+  verb.add_option("FILE", file, "problem file")->required();
+  verb.add_option("--set", read.overrides, "override a key: --set parameters.L=2 --set energies.0.thickness=0.1")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void rank_option(CLI::App& verb, int& ranks) {
+  verb.add_option("-n,--ranks", ranks, "number of MPI ranks; they are started here, unless mpirun or srun has done so")
+      ->type_name("RANKS")
+      ->check(CLI::Range(1, 100000));
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Geometric finite elements: minimisers among maps into manifolds, from one text file.", "karcher");
+  app.require_subcommand(1);
+  app.set_help_all_flag("--help-all", "help of all verbs");
+  app.set_version_flag("--version", version_text());
+  int ranks = 1;
+  std::function<int()> action;
+
+  RunOptions run_options;
+  CLI::App& run_verb = *app.add_subcommand("run", "solve a problem and write its results");
+  reading_options(run_verb, run_options.file, run_options.read);
+  rank_option(run_verb, ranks);
+  run_verb.add_option("-o,--output", run_options.read.output, "directory of results, instead of the file's")->type_name("DIR");
+  run_verb.add_flag("-q,--quiet", run_options.quiet, "print errors only");
+  run_verb.add_flag("--resume", run_options.resume, "go on after the last finished load step of the results");
+  run_verb.callback([&] { action = [&] { return on_ranks([&] { return run(run_options); }); }; });
+
+  EvaluateOptions evaluate_options;
+  CLI::App& evaluate_verb = *app.add_subcommand("evaluate", "energies and norm of the gradient at the initial configuration, without solving");
+  reading_options(evaluate_verb, evaluate_options.file, evaluate_options.read);
+  rank_option(evaluate_verb, ranks);
+  evaluate_verb.add_flag("--json", evaluate_options.json, "print JSON, nothing else");
+  evaluate_verb.callback([&] { action = [&] { return on_ranks([&] { return evaluate(evaluate_options); }); }; });
+
+  ConvergeOptions converge_options;
+  CLI::App& converge_verb = *app.add_subcommand("converge", "solve on refined meshes; errors against [exact] or the finest level, and their orders");
+  reading_options(converge_verb, converge_options.file, converge_options.read);
+  rank_option(converge_verb, ranks);
+  converge_verb.add_option("--levels", converge_options.levels, "number of refinements")->check(CLI::Range(0, 20))->capture_default_str();
+  converge_verb.add_option("--start", converge_options.start, "from the coarser solution, or from the initial values of the file")
+      ->check(CLI::IsMember({"prolonged", "initial"}))
+      ->capture_default_str();
+  converge_verb.add_option("-o,--output", converge_options.read.output, "directory for convergence.csv and .json, instead of the file's")
+      ->type_name("DIR");
+  converge_verb.add_flag("--json", converge_options.json, "print JSON, nothing else");
+  converge_verb.add_flag("-q,--quiet", converge_options.quiet, "print errors only");
+  converge_verb.callback([&] { action = [&] { return on_ranks([&] { return converge(converge_options); }); }; });
+
+  CheckOptions check_options;
+  CLI::App& check_verb = *app.add_subcommand("check", "read and resolve everything, and print what is there");
+  reading_options(check_verb, check_options.file, check_options.read);
+  check_verb.add_flag("--derivatives", check_options.derivatives, "compare gradient and Hessian with differences of the energy");
+  check_verb.callback([&] { action = [&] { return on_ranks([&] { return check(check_options); }); }; });
+
+  ViewOptions view_options;
+  CLI::App& view_verb = *app.add_subcommand("view", "(re)make the page of a directory of results");
+  view_verb.add_option("DIR", view_options.directory, "directory of results")->required();
+  view_verb.callback([&] { action = [&] { return view(view_options); }; });
+
+  std::string name, example;
+  CLI::App& new_verb = *app.add_subcommand("new", "start from a worked example");
+  new_verb.add_option("NAME", name, "directory to be made")->required();
+  new_verb.add_option("--from", example, "example: karcher list examples")->required()->type_name("EXAMPLE");
+  new_verb.callback([&] { action = [&] { return make_new(name, example); }; });
+
+  std::string what;
+  CLI::App& list_verb = *app.add_subcommand("list", "what there is: manifolds, energies, loads, meshes, examples");
+  list_verb.add_option("WHAT", what, "manifolds, energies, loads, meshes or examples")->required();
+  list_verb.callback([&] { action = [&] { return list(what); }; });
+
+  std::string key;
+  CLI::App& doc_verb = *app.add_subcommand("doc", "explain a section or a key of the problem file");
+  doc_verb.add_option("KEY", key, "solver, solver.method, mesh.generate, energies.cosserat-shell, ...");
+  doc_verb.callback([&] { action = [&] { return doc(key); }; });
+
+  CLI::App& version_verb = *app.add_subcommand("version", "print the version");
+  version_verb.callback([&] { action = [] { return version(); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  }
+  if (const std::optional<int> code = launch_ranks(ranks, argc, argv)) return *code;
+  return action();
+}
+
+}  // namespace karcher::app

@@ -1,0 +1,105 @@
+#include "app/constraints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace karcher::app {
+namespace {
+
+/// Nodes of the field on the entities of a region, ascending.
+std::vector<int> nodes_on(const Space& space, const Region& region) {
+  std::set<int> nodes;
+  for (const Cell& c : region.cells)
+    for (const int n : space.entity_nodes(c)) nodes.insert(n);
+  return {nodes.begin(), nodes.end()};
+}
+
+std::string point_text(const double* p, int n) {
+  std::string s;
+  for (int i = 0; i < n; ++i) s += fmt::format("{}{}", i ? ", " : "", p[i]);
+  return n == 1 ? s : "(" + s + ")";
+}
+
+}  // namespace
+
+Constraints::Constraints(const Problem& problem, std::span<const Field> fields, const Configuration& initial) : specs_(problem.dirichlet) {
+  struct Owner {
+    int spec = -1;
+  };
+  std::vector<std::vector<Owner>> owners;
+  for (const Field& f : fields) {
+    const auto size = static_cast<std::size_t>(f.space->node_count() * f.manifold->dim);
+    fixed_.emplace_back(size, 0);
+    owners.emplace_back(size);
+    ambient_.push_back(f.manifold->ambient);
+  }
+
+  // The point that spec k wants at a node, at t; components that it leaves alone keep the initial values.
+  const auto wanted = [&](int k, int field, int node, double t) {
+    const DirichletSpec& spec = specs_[static_cast<std::size_t>(k)];
+    const Field& f = fields[static_cast<std::size_t>(field)];
+    const double* from = initial.at(field, node, f.manifold->ambient);
+    std::vector<double> p(from, from + f.manifold->ambient);
+    if (spec.point.is_given()) write({field, node, -1, f.space->position(node), k}, t, p.data());
+    for (std::size_t i = 0; i < spec.entries.size(); ++i)
+      if (spec.components[i] == DirichletSpec::Component::value) write({field, node, static_cast<int>(i), f.space->position(node), k}, t, p.data());
+    return p;
+  };
+
+  for (std::size_t k = 0; k < specs_.size(); ++k) {
+    const DirichletSpec& spec = specs_[k];
+    const Field& f = fields[static_cast<std::size_t>(spec.field)];
+    const auto field = static_cast<std::size_t>(spec.field);
+    const Region& region = at_place(spec.on_place, [&]() -> const Region& { return f.space->mesh().region(spec.on); });
+    const std::vector<int> nodes = nodes_on(*f.space, region);
+    if (nodes.empty())
+      refuse(spec.on_place, fmt::format("{}: the field \"{}\" lives on \"{}\" and has no node on the region \"{}\".", spec.path, f.name,
+                                        f.space->region().name, spec.on));
+    const bool linear = spec.entries.size() == spec.components.size();
+    for (const int node : nodes) {
+      for (std::size_t i = 0; i < spec.components.size(); ++i) {
+        if (spec.components[i] == DirichletSpec::Component::free) continue;
+        const std::size_t dof = static_cast<std::size_t>(node) * spec.components.size() + i;
+        Owner& owner = owners[field][dof];
+        if (owner.spec >= 0) {
+          for (const double t : {problem.continuation.from, problem.continuation.to}) {
+            const std::vector<double> a = wanted(owner.spec, spec.field, node, t), b = wanted(static_cast<int>(k), spec.field, node, t);
+            const double distance = f.manifold->name.starts_with("R") ? std::abs(a[i] - b[i]) : f.manifold->dist(a.data(), b.data());
+            const double size = f.manifold->name.starts_with("R") ? 1 + std::abs(a[i]) : 1.0;
+            if (distance <= 1e-9 * size) continue;
+            const DirichletSpec& other = specs_[static_cast<std::size_t>(owner.spec)];
+            const Vec3<double>& x = f.space->position(node);
+            const int n = f.manifold->name.starts_with("R") ? 1 : f.manifold->ambient;
+            const std::size_t first = n == 1 ? i : 0;
+            refuse(spec.place,
+                   fmt::format("{} and {} ({}) give the field \"{}\" different values at ({}, {}, {}), t = {}: {} and {}.", spec.path, other.path,
+                               other.place.text(), f.name, x[0], x[1], x[2], t, point_text(&b[first], n), point_text(&a[first], n)));
+          }
+          if (spec.components[i] == DirichletSpec::Component::initial) continue;
+        }
+        owner.spec = static_cast<int>(k);
+        fixed_[field][dof] = 1;
+        if (linear && spec.components[i] == DirichletSpec::Component::value)
+          values_.push_back({spec.field, node, static_cast<int>(i), f.space->position(node), static_cast<int>(k)});
+      }
+      if (spec.point.is_given()) values_.push_back({spec.field, node, -1, f.space->position(node), static_cast<int>(k)});
+    }
+  }
+}
+
+void Constraints::write(const NodeValue& value, double t, double* point) const {
+  const DirichletSpec& spec = specs_[static_cast<std::size_t>(value.spec)];
+  if (value.component < 0)
+    spec.point.evaluate(value.x, t, point);
+  else
+    point[value.component] = spec.entries[static_cast<std::size_t>(value.component)](value.x, t);
+}
+
+void Constraints::apply(double t, Configuration& u) const {
+  for (const NodeValue& v : values_) write(v, t, u.at(v.field, v.node, ambient_[static_cast<std::size_t>(v.field)]));
+}
+
+}  // namespace karcher::app

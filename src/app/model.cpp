@@ -1,0 +1,161 @@
+#include "app/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "karcher/io/summary.hpp"
+#include "karcher/mesh/gmsh.hpp"
+#include "karcher/mesh/partition.hpp"
+#include "karcher/mesh/reference_geometry.hpp"
+#include "karcher/mesh/refine.hpp"
+#include "karcher/solve/petsc.hpp"
+
+namespace karcher::app {
+namespace {
+
+/// The stress-free position as function of the mesh point; empty: the mesh.
+std::function<Vec3<double>(const Vec3<double>&)> reference_position(const Problem& problem) {
+  const std::vector<Expression>& e = problem.reference.position;
+  if (e.empty()) return {};
+  return [e](const Vec3<double>& x) { return Vec3<double>{{e[0](x, 0), e[1](x, 0), e[2](x, 0)}}; };
+}
+
+void add_region(Mesh& mesh, const RegionSpec& spec) {
+  if (mesh.regions.contains(spec.name)) refuse(spec.place, "the mesh has a region \"" + spec.name + "\" already; take another name.");
+  if (spec.dim > mesh.dim)
+    refuse(spec.place, "regions." + spec.name + ".dim is " + std::to_string(spec.dim) + ", but the cells of the mesh have dimension " +
+                           std::to_string(mesh.dim) + ".");
+  mesh.regions[spec.name] = at_place(
+      spec.place, [&] { return select(mesh, spec.name, spec.dim, spec.boundary, [&](const Vec3<double>& x) { return spec.where(x, 0) != 0; }); });
+}
+
+std::vector<double> initial_values(const Problem& problem, const FieldSpec& spec, const Space& space) {
+  const int n = spec.manifold->ambient;
+  std::vector<double> values(static_cast<std::size_t>(space.node_count() * n));
+  if (spec.initial_kind == InitialKind::reference) {
+    const std::vector<Vec3<double>> positions = reference_positions(problem, space);
+    for (int node = 0; node < space.node_count(); ++node)
+      for (int i = 0; i < std::min(n, 3); ++i) values[static_cast<std::size_t>(node * n + i)] = positions[static_cast<std::size_t>(node)][i];
+    return values;
+  }
+  for (int node = 0; node < space.node_count(); ++node)
+    spec.initial.evaluate(space.position(node), problem.continuation.from, values.data() + static_cast<std::size_t>(node * n));
+  return values;
+}
+
+std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, const Discretisation& d, const Layout& layout) {
+  const Region& whole = d.mesh->region(spec.on);
+  TermInput input;
+  input.mesh = d.mesh;
+  input.region.name = whole.name;
+  input.region.dim = whole.dim;
+  for (const Cell& c : whole.cells)
+    if (layout.ranks() == 1 || layout.cell_rank(c) == layout.rank()) input.region.cells.push_back(c);
+  input.all_fields = d.fields;
+  input.fields = spec.fields;
+  input.parameters = spec.parameters;
+  input.choices = spec.choices;
+  input.quadrature_degree = problem.quadrature;
+  input.reference_position = reference_position(problem);
+  input.reference_order = problem.reference.order;
+  input.t = problem.continuation.from;
+  return at_place(spec.place, [&] { return make_term(spec.type, std::move(input)); });
+}
+
+void check_region_of_term(const TermSpec& spec, const Discretisation& d) {
+  const Region& region = at_place(spec.on_place, [&]() -> const Region& { return d.mesh->region(spec.on); });
+  const std::vector<int>& dims = spec.info->dimensions;
+  if (std::find(dims.begin(), dims.end(), region.dim) == dims.end()) {
+    std::string allowed;
+    for (const int dim : dims) allowed += (allowed.empty() ? "" : " or ") + std::to_string(dim);
+    refuse(spec.on_place, spec.path + ": " + spec.info->type + " is an integral over a region of dimension " + allowed + ", but \"" + spec.on +
+                              "\" has dimension " + std::to_string(region.dim) + ".");
+  }
+  for (const int f : spec.fields) {
+    const Field& field = d.fields[static_cast<std::size_t>(f)];
+    if (field.space->region().name == "all" || field.space->region().name == spec.on) continue;
+    for (const Cell& c : region.cells)
+      if (field.space->entity_nodes(c).empty())
+        refuse(spec.on_place, spec.path + ": the field \"" + field.name + "\" lives on \"" + field.space->region().name +
+                                  "\", which does not contain all of the region \"" + spec.on + "\".");
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3<double>> reference_positions(const Problem& problem, const Space& space) {
+  std::vector<Vec3<double>> positions(static_cast<std::size_t>(space.node_count()));
+  const auto position = reference_position(problem);
+  if (!position) {
+    for (int node = 0; node < space.node_count(); ++node) positions[static_cast<std::size_t>(node)] = space.position(node);
+    return positions;
+  }
+  const ReferenceGeometry geometry(space.mesh(), position, problem.reference.order);
+  for (std::size_t c = 0; c < space.region().cells.size(); ++c) {
+    const Cell& cell = space.region().cells[c];
+    const std::vector<int>& nodes = space.cell_nodes(static_cast<int>(c));
+    const std::vector<GeometryJet> jets = geometry.at(cell, lagrange_nodes(cell.kind, space.order()));
+    for (std::size_t i = 0; i < nodes.size(); ++i) positions[static_cast<std::size_t>(nodes[i])] = jets[i].x;
+  }
+  return positions;
+}
+
+std::shared_ptr<const Mesh> build_mesh(const Problem& problem) {
+  const MeshSpec& spec = problem.mesh;
+  auto mesh =
+      std::make_shared<Mesh>(at_place(spec.place, [&] { return spec.file.empty() ? generate(spec.generator) : read_gmsh(spec.file.string()); }));
+  for (int i = 0; i < spec.refine; ++i) *mesh = refine(*mesh).mesh;
+  for (const RegionSpec& region : problem.regions) add_region(*mesh, region);
+  return mesh;
+}
+
+Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> mesh) {
+  Discretisation d;
+  d.mesh = std::move(mesh);
+  d.initial.t = problem.continuation.from;
+  for (const FieldSpec& spec : problem.fields) {
+    const Region& region = at_place(spec.on_place, [&]() -> const Region& { return d.mesh->region(spec.on); });
+    const auto space = at_place(spec.place, [&] { return std::make_shared<const Space>(d.mesh, region, spec.order); });
+    d.fields.push_back({spec.name, spec.manifold, spec.rule, space});
+    d.initial.values.push_back(initial_values(problem, spec, *space));
+  }
+  for (const TermSpec& spec : problem.terms) check_region_of_term(spec, d);
+  d.constraints = Constraints(problem, d.fields, d.initial);
+  return d;
+}
+
+Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh) {
+  Model m;
+  together([&] {
+    m.discretisation = discretise(problem, std::move(mesh));
+    const int ranks = world_size();
+    const CellRanks cell_ranks = partition_cells(*m.discretisation.mesh, ranks);
+    m.layout = std::make_shared<const Layout>(m.discretisation.fields, m.discretisation.constraints.fixed(), cell_ranks, world_rank(), ranks);
+  });
+  together([&] {
+    std::vector<std::unique_ptr<Term>> terms;
+    std::vector<std::string> names;
+    for (const TermSpec& spec : problem.terms) {
+      terms.push_back(build_term(problem, spec, m.discretisation, *m.layout));
+      names.push_back(terms.back()->name());
+      for (const std::string& warning : terms.back()->warnings()) m.warnings.push_back(spec.place.text() + ": " + warning);
+    }
+    m.term_names = distinct_names(names);
+    m.functional = std::make_unique<Functional>(m.layout, std::move(terms));
+  });
+  m.exchange = std::make_unique<Exchange>(*m.layout);
+  return m;
+}
+
+OutputModel output_model(const Problem& problem, const Model& model) {
+  OutputModel o;
+  o.fields = model.fields();
+  o.deformation = problem.deformation();
+  o.terms = model.term_names;
+  for (const auto& term : model.functional->terms()) o.term_parts.push_back(term->part_names());
+  o.reference_position = reference_position(problem);
+  o.reference_order = problem.reference.order;
+  return o;
+}
+
+}  // namespace karcher::app

@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// A problem on its mesh: regions, fields with initial values, boundary data, and the functional.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/constraints.hpp"
+#include "app/problem.hpp"
+#include "app/ranks.hpp"
+#include "karcher/assembly/functional.hpp"
+#include "karcher/io/output.hpp"
+#include "karcher/solve/exchange.hpp"
+
+namespace karcher::app {
+
+/// Mesh with all its regions, refined as the file says. \throws InputError
+std::shared_ptr<const Mesh> build_mesh(const Problem& problem);
+
+/// Fields on a mesh, their initial values and their boundary data.
+struct Discretisation {
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<Field> fields;
+  Configuration initial;
+  Constraints constraints;
+};
+Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> mesh);
+
+/// Everything that a rank needs to solve.
+struct Model {
+  Discretisation discretisation;
+  std::shared_ptr<const Layout> layout;
+  std::unique_ptr<Functional> functional;
+  std::unique_ptr<Exchange> exchange;
+  std::vector<std::string> term_names;  ///< distinct
+  std::vector<std::string> warnings;
+
+  const std::vector<Field>& fields() const { return discretisation.fields; }
+};
+/// Collective: an error of one rank is thrown on all.
+Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh);
+
+/// What writers of results need to know.
+OutputModel output_model(const Problem& problem, const Model& model);
+
+/// Place of the nodes of a space in the stress-free configuration.
+std::vector<Vec3<double>> reference_positions(const Problem& problem, const Space& space);
+
+}  // namespace karcher::app

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Places in a problem file, as messages name them.
+
+#include <string>
+
+#include "karcher/error.hpp"
+
+namespace karcher::app {
+
+/// "problem.toml:12:3" (line and column from 1), or "--set solver.x=3" for what came from the command line.
+struct Place {
+  std::string file;
+  int line = 0, column = 0;
+
+  std::string text() const {
+    if (file.empty()) return {};
+    return line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : file;
+  }
+  /// The place `columns` to the right.
+  Place shifted(int columns) const { return {file, line, column + columns}; }
+};
+
+[[noreturn]] inline void refuse(const Place& place, const std::string& sentence) {
+  throw InputError(place.file.empty() ? sentence : place.text() + ": " + sentence);
+}
+
+/// Runs `work`; the place is put before the message of an InputError that leaves it.
+template <class Work>
+decltype(auto) at_place(const Place& place, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    if (what.starts_with(place.file)) throw;
+    refuse(place, what);
+  }
+}
+
+}  // namespace karcher::app

@@ -1,0 +1,53 @@
+#include "app/progress.hpp"
+#include "karcher/interpolation/evaluate.hpp"
+#include "karcher/manifold/rotation.hpp"
+#include "karcher/mesh/locate.hpp"
+#include "karcher/mesh/reference_geometry.hpp"
+
+namespace karcher::app {
+namespace {
+
+std::vector<double> quantity(const ProbeSpec& probe, const ManifoldOps& m, const std::vector<double>& value, const Vec3<double>& reference) {
+  if (probe.quantity == "displacement") {
+    std::vector<double> u = value;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] -= reference[static_cast<int>(i)];
+    return u;
+  }
+  if (m.name == "SO3" && probe.quantity != "value") {
+    const Quaternion<double> q{{value[0], value[1], value[2], value[3]}};
+    const Vec3<double> v = probe.quantity == "rotation-vector" ? Rotation::to_rotation_vector(q) : Rotation::director(q, probe.quantity.back() - '1');
+    return {v[0], v[1], v[2]};
+  }
+  return value;
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<double>> probe_values(const Problem& problem, const Model& model, const Configuration& u) {
+  std::map<std::string, std::vector<double>> values;
+  for (const ProbeSpec& probe : problem.probes) {
+    const auto index = static_cast<std::size_t>(probe.field);
+    const Field& field = model.fields()[index];
+    const Space& space = *field.space;
+    const Mesh& mesh = *model.discretisation.mesh;
+    const Location where = at_place(probe.place, [&] { return locate(mesh, space.region(), probe.at); });
+    const Cell& cell = space.region().cells[static_cast<std::size_t>(where.cell)];
+    const Shape shape = lagrange(cell.kind, space.order(), where.xi);
+    std::vector<double> nodes;
+    const int n = field.manifold->ambient;
+    for (const int node : space.cell_nodes(where.cell))
+      nodes.insert(nodes.end(), u.values[index].begin() + node * n, u.values[index].begin() + (node + 1) * n);
+    const FieldAtPoint at = evaluate_field(*field.manifold, field.rule, nodes, shape.value);
+    Vec3<double> reference = geometry(mesh, cell, where.xi).x;
+    if (!problem.reference.position.empty()) {
+      const auto& e = problem.reference.position;
+      const auto position = [&](const Vec3<double>& x) { return Vec3<double>{{e[0](x, 0), e[1](x, 0), e[2](x, 0)}}; };
+      reference = ReferenceGeometry(mesh, position, problem.reference.order).at(cell, {where.xi}).front().x;
+    }
+    values[probe.name] = at.defined ? quantity(probe, *field.manifold, at.value, reference)
+                                    : std::vector<double>(static_cast<std::size_t>(n), std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
+
+}  // namespace karcher::app

@@ -1,0 +1,21 @@
+#include "app/program.hpp"
+
+#include <exception>
+
+#include "app/command_line.hpp"
+#include "app/launch.hpp"
+#include "app/progress.hpp"
+#include "app/ranks.hpp"
+
+namespace karcher::app {
+
+int program(int argc, char** argv) {
+  seconds_now();
+  try {
+    return report_exit(command_line(argc, argv));
+  } catch (const std::exception& error) {
+    return report_exit(tell_error(error));
+  }
+}
+
+}  // namespace karcher::app

@@ -1,0 +1,176 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "app/errors.hpp"
+#include "app/verbs.hpp"
+#include "karcher/io/atomic_file.hpp"
+
+namespace karcher::app {
+
+double seconds_now() {
+  static const auto begin = std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::uint64_t identity(const Problem& problem, const Model& model) {
+  Identity id;
+  id.add(model.fields());
+  for (const Entry& e : problem.resolved.entries)
+    if (e.key != "title" && e.key != "output" && e.key != "probes" && e.key != "solver" && e.key != "mesh") {
+      Value section;
+      section.entries.push_back(e);
+      id.add(to_toml(section));
+    }
+  return id.value();
+}
+
+Results::Results(const Problem& problem, const Model& model, std::uint64_t identity, double setup_seconds, int last)
+    : problem_(problem),
+      model_(model),
+      identity_(identity),
+      last_(last),
+      writer_(model.layout->rank() == 0),
+      output_(output_model(problem, model)),
+      start_(seconds_now() - setup_seconds) {
+  const Mesh& mesh = *model.discretisation.mesh;
+  summary_.title = problem.title;
+  summary_.version = version_text();
+  summary_.mesh.cells = static_cast<long>(mesh.cells.size());
+  summary_.mesh.nodes = static_cast<long>(mesh.nodes.size());
+  summary_.mesh.order = 1;
+  for (const Cell& c : mesh.cells) summary_.mesh.order = std::max(summary_.mesh.order, c.order);
+  for (const Field& f : model.fields()) summary_.unknowns += static_cast<long>(f.space->node_count()) * f.manifold->dim;
+  summary_.free_unknowns = model.layout->free_dofs();
+  summary_.ranks = model.layout->ranks();
+  summary_.seconds.setup = setup_seconds;
+}
+
+void Results::begin(const Configuration& initial) {
+  const double begin = seconds_now();
+  together([&] {
+    if (!writer_) return;
+    std::error_code code;
+    std::filesystem::create_directories(directory(), code);
+    if (code) throw Error("The directory " + directory().string() + " cannot be made: " + code.message() + ".");
+    // What an earlier run left would be taken for this one's.
+    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(directory() / stale, code);
+    write_atomically(directory() / "problem.resolved.toml", to_toml(problem_.resolved));
+    if (problem_.output.vtu) vtu_.emplace(directory());
+    if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_));
+    write_checkpoint(checkpoint_file(), {0, 0.0, initial, to_json(summary_)}, model_.fields(), identity_);
+  });
+  write_state(0, initial, true);
+  summary_.seconds.output += seconds_now() - begin;
+}
+
+void Results::resume(const Checkpoint& checkpoint) {
+  together([&] {
+    const Summary earlier = summary_from_json(checkpoint.summary, checkpoint_file().string());
+    summary_.load_steps = earlier.load_steps;
+    summary_.work = earlier.work;
+    summary_.energy = earlier.energy;
+    summary_.energies = earlier.energies;
+    summary_.parts = earlier.parts;
+    summary_.errors = earlier.errors;
+    const double setup = summary_.seconds.setup;
+    summary_.seconds = earlier.seconds;
+    summary_.seconds.setup += setup;
+    earlier_seconds_ = earlier.seconds.total;
+    if (!writer_) return;
+    write_atomically(directory() / "problem.resolved.toml", to_toml(problem_.resolved));
+    if (problem_.output.vtu) {
+      vtu_.emplace(directory());
+      vtu_->resume(checkpoint.load_step + 1);
+    }
+    if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_), checkpoint.load_step + 1);
+  });
+}
+
+void Results::measure(const Configuration& u) {
+  const Functional& f = *model_.functional;
+  const Evaluation e = f.energy(u);
+  std::vector<double> sums = e.terms;
+  for (const auto& term : f.terms()) {
+    const std::vector<double> parts = term->part_energies(u);
+    sums.insert(sums.end(), parts.begin(), parts.end());
+  }
+  model_.exchange->sum_all(sums);
+  summary_.energy = 0;
+  summary_.energies.clear();
+  summary_.parts.clear();
+  std::size_t k = 0;
+  for (const std::string& name : model_.term_names) {
+    summary_.energy += sums[k];
+    summary_.energies.emplace_back(name, sums[k++]);
+  }
+  for (std::size_t i = 0; i < f.terms().size(); ++i)
+    for (const std::string& part : f.terms()[i]->part_names()) summary_.parts[model_.term_names[i]].emplace_back(part, sums[k++]);
+}
+
+void Results::write_state(int state, const Configuration& u, bool files) {
+  if (!problem_.output.vtu && !problem_.output.report) return;
+  if (!files) return;
+  std::vector<double> energies = output_.cell_energies(*model_.functional, u);
+  model_.exchange->sum_all(energies);
+  together([&] {
+    if (!writer_) return;
+    const std::vector<OutputPart> parts = output_.sample(u, energies);
+    if (vtu_) vtu_->write(state, u.t, parts);
+    if (page_) page_->write(state, u.t, parts, summary_.energies);
+  });
+}
+
+void Results::update_times() { summary_.seconds.total = earlier_seconds_ + seconds_now() - start_; }
+
+void Results::load_step_finished(const StepReport& report, const Configuration& local) {
+  const double begin = seconds_now();
+  Configuration u = local;
+  complete(*model_.layout, u);
+  measure(u);
+  summary_.errors = errors_against_exact(problem_, model_, u);
+  LoadStepSummary step = summarize(report);
+  together([&] { step.probes = probe_values(problem_, model_, u); });
+  summary_.load_steps.push_back(step);
+  summary_.work += report.work;
+  summary_.seconds.assembly += report.phases.assembly;
+  summary_.seconds.factorisation += report.phases.factorisation;
+  summary_.seconds.solve += report.phases.solve;
+  const bool last = report.status != Status::converged || report.load_step == last_ || u.t == problem_.continuation.to;
+  write_state(report.load_step, u, last || report.load_step % problem_.output.every == 0);
+  summary_.seconds.output += seconds_now() - begin;
+  update_times();
+  // Until the end, what stands there is the summary of a run that was cut off after this load step.
+  summary_.status = report.status == Status::converged ? Status::interrupted : report.status;
+  summary_.reason = fmt::format("Load step {} (t = {:.6g}) ended: {}", report.load_step, report.t, report.reason);
+  summary_.peak_memory_mb = model_.exchange->sum(peak_memory_mb());
+  together([&] {
+    if (!writer_) return;
+    write_summary(directory() / "summary.json", summary_);
+    if (report.status == Status::converged) {
+      const Checkpoint checkpoint{report.load_step, 0.0, u, to_json(summary_)};
+      write_checkpoint(checkpoint_file(), checkpoint, model_.fields(), identity_);
+    }
+  });
+}
+
+void Results::finish(Status status, const std::string& reason) {
+  summary_.status = status;
+  summary_.reason = reason;
+  const double begin = seconds_now();
+  summary_.peak_memory_mb = model_.exchange->sum(peak_memory_mb());
+  update_times();
+  together([&] {
+    if (!writer_) return;
+    write_summary(directory() / "summary.json", summary_);
+    if (!problem_.output.report) return;
+    write_page(directory());
+    summary_.seconds.output += seconds_now() - begin;
+    update_times();
+    write_summary(directory() / "summary.json", summary_);
+  });
+}
+
+}  // namespace karcher::app

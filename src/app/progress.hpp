@@ -1,0 +1,87 @@
+#pragma once
+/// \file
+/// What a run leaves behind while it goes on: table, iterations.csv, fields, summary, checkpoint.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/model.hpp"
+#include "karcher/io/checkpoint.hpp"
+#include "karcher/io/console_table.hpp"
+#include "karcher/io/iterations.hpp"
+#include "karcher/io/page.hpp"
+#include "karcher/io/summary.hpp"
+#include "karcher/io/vtu.hpp"
+#include "karcher/solve/report.hpp"
+
+namespace karcher::app {
+
+/// Seconds of a clock that never goes back, since the program began.
+double seconds_now();
+
+/// Hands the load steps of a run on, with numbers from 1 that go on where a resumed run left off.
+class Renumbered : public Observer {
+ public:
+  Renumbered(std::vector<Observer*> observers, int finished) : observers_(std::move(observers)), offset_(finished + 1) {}
+  void load_step_begins(int load_step, double t) override {
+    for (Observer* o : observers_) o->load_step_begins(load_step + offset_, t);
+  }
+  void iteration(const IterationRecord& record) override {
+    IterationRecord r = record;
+    r.load_step += offset_;
+    for (Observer* o : observers_) o->iteration(r);
+  }
+  void load_step_finished(const StepReport& report, const Configuration& u) override {
+    StepReport r = report;
+    r.load_step += offset_;
+    for (Observer* o : observers_) o->load_step_finished(r, u);
+  }
+
+ private:
+  std::vector<Observer*> observers_;
+  int offset_;
+};
+
+/// Writes the results of load steps. Lives on all ranks; rank 0 writes.
+class Results : public Observer {
+ public:
+  /// \param last number of the last load step, whose fields are always written; 0: not known beforehand
+  Results(const Problem& problem, const Model& model, std::uint64_t identity, double setup_seconds, int last);
+
+  /// A new run: directory, resolved problem, and the initial configuration as state 0. Collective.
+  void begin(const Configuration& initial);
+  /// Goes on after the load steps of a checkpoint. Collective.
+  void resume(const Checkpoint& checkpoint);
+  void load_step_finished(const StepReport& report, const Configuration& u) override;
+  /// The last summary and the page. \param status of the whole run
+  void finish(Status status, const std::string& reason);
+
+  const Summary& summary() const { return summary_; }
+  const std::filesystem::path& directory() const { return problem_.output.directory; }
+  std::filesystem::path checkpoint_file() const { return directory() / "checkpoint.bin"; }
+
+ private:
+  void write_state(int state, const Configuration& u, bool files);
+  void measure(const Configuration& u);
+  void update_times();
+
+  const Problem& problem_;
+  const Model& model_;
+  std::uint64_t identity_;
+  int last_;
+  bool writer_;
+  Output output_;
+  std::optional<VtuSeries> vtu_;
+  std::optional<PageStates> page_;
+  Summary summary_;
+  double start_ = 0, earlier_seconds_ = 0;
+};
+
+/// What must agree between a run and the run that continues it.
+std::uint64_t identity(const Problem& problem, const Model& model);
+
+/// Values of the probes at a complete configuration. \throws InputError for a probe off the field's region
+std::map<std::string, std::vector<double>> probe_values(const Problem& problem, const Model& model, const Configuration& u);
+
+}  // namespace karcher::app

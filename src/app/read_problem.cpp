@@ -1,0 +1,438 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/problem.hpp"
+#include "app/read_terms.hpp"
+#include "app/schema.hpp"
+#include "app/section.hpp"
+#include "karcher/mesh/quadrature.hpp"
+#include "karcher/text.hpp"
+
+namespace karcher::app {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// Reads section after section into a Problem.
+class Reader {
+ public:
+  Reader(const Path& file, const ReadOptions& options) : options_(options), root_(read_toml(file, options.overrides)) {
+    problem_.file = std::filesystem::absolute(file).lexically_normal();
+  }
+
+  Problem read() {
+    const Place whole{root_.place.file, 1, 1};
+    Section top(&root_, "", whole, key_names(""));
+    problem_.title = top.text("title", problem_.file.stem().string());
+    if (problem_.title.empty()) refuse(top.place("title"), "title must not be empty.");
+    note("title", Value::of(problem_.title));
+    parameters();
+    mesh(top);
+    regions();
+    reference();
+    fields(top);
+    exact();
+    terms(top);
+    initial_values();
+    dirichlet();
+    continuation();
+    solver();
+    quadrature();
+    probes();
+    output();
+    return std::move(problem_);
+  }
+
+ private:
+  const Value* find(const std::string& key) const {
+    const Entry* e = root_.find(key);
+    return e ? &e->value : nullptr;
+  }
+  void note(const std::string& key, Value value) { problem_.resolved.append(key, {}, std::move(value)); }
+  void note(const Section& section) { note(section.path(), section.resolved()); }
+  Section section(const std::string& name, std::vector<std::string> more = {}) const {
+    std::vector<std::string> keys = key_names(name);
+    keys.insert(keys.end(), more.begin(), more.end());
+    const Value* v = find(name);
+    return Section(v, name, v ? v->place : Place{root_.place.file, 1, 1}, std::move(keys));
+  }
+  /// The entries of [name.X] tables.
+  std::vector<Entry> named_tables(const std::string& name) const {
+    const Value* v = find(name);
+    if (!v) return {};
+    if (!v->is(Value::Kind::table)) refuse(v->place, name + " must be tables [" + name + ".NAME], not " + v->kind_name() + ".");
+    for (const Entry& e : v->entries)
+      if (!e.value.is(Value::Kind::table))
+        refuse(e.place, name + "." + e.key + " must be a table [" + name + ".NAME] with the keys " + join_names(key_names(name)) + ", not " +
+                            e.value.kind_name() + ".");
+    return v->entries;
+  }
+  std::vector<Value> array_of_tables(const std::string& name) const {
+    const Value* v = find(name);
+    if (!v) return {};
+    if (!v->is(Value::Kind::array)) refuse(v->place, name + " must be an array of tables: write [[" + name + "]].");
+    return v->items;
+  }
+
+  void parameters() {
+    const Value* v = find("parameters");
+    if (!v) return;
+    if (!v->is(Value::Kind::table)) refuse(v->place, "parameters must be a table, not " + v->kind_name() + ".");
+    for (const Entry& e : v->entries) problem_.scope.define(e.key, expression_of(e.value, "parameters." + e.key, problem_.scope), e.place);
+    note("parameters", *v);
+  }
+
+  void mesh(const Section& top) {
+    if (!top.has("mesh")) top.missing("mesh");
+    MeshSpec& spec = problem_.mesh;
+    const Value* v = find("mesh");
+    const Entry* generate = v->is(Value::Kind::table) ? v->find("generate") : nullptr;
+    const GeneratorInfo* info = nullptr;
+    std::vector<std::string> arguments;
+    if (generate) {
+      if (!generate->value.is(Value::Kind::text))
+        refuse(generate->value.place, "mesh.generate must be a string, not " + generate->value.kind_name() + ".");
+      info = &at_place(generate->value.place, [&]() -> const GeneratorInfo& { return generator(generate->value.text); });
+      for (const GeneratorArgument& a : info->arguments) arguments.push_back(a.name);
+    }
+    Section s = section("mesh", arguments);
+    spec.place = s.place();
+    if (s.has("file") == s.has("generate"))
+      refuse(s.place(), s.has("file") ? "mesh has both \"file\" and \"generate\"; one of them is meant." : "mesh lacks \"file\" or \"generate\".");
+    if (s.has("file")) {
+      spec.place = s.place("file");
+      const Path given = s.text("file");
+      spec.file = (given.is_absolute() ? given : problem_.file.parent_path() / given).lexically_normal();
+      s.note("file", Value::of(spec.file.string()));
+    } else {
+      spec.generator.name = s.text("generate");
+      for (const GeneratorArgument& a : info->arguments) generator_argument(s, a);
+    }
+    spec.refine = s.integer("refine", 0, 0, 20);
+    note(s);
+  }
+
+  void generator_argument(Section& s, const GeneratorArgument& a) {
+    if (a.is_choice()) {
+      problem_.mesh.generator.words[a.name] = s.word(a.name, a.words, a.words.front());
+      return;
+    }
+    const std::vector<double> values = s.constants(a.name, problem_.scope, a.numbers.size(), a.numbers);
+    for (const double x : values) {
+      if (a.integer && (x != std::floor(x) || std::abs(x) > 1e8)) refuse(s.place(a.name), s.path(a.name) + " must be a whole number.");
+      if (x < a.minimum || (x == a.minimum && !a.minimum_allowed))
+        refuse(s.place(a.name),
+               fmt::format("{} must be {} {}, not {}.", s.path(a.name), a.minimum_allowed ? "at least" : "greater than", a.minimum, x));
+    }
+    problem_.mesh.generator.numbers[a.name] = values;
+    std::vector<Value> items;
+    for (const double x : values) items.push_back(a.integer ? Value::of(static_cast<long long>(x)) : Value::of(x));
+    s.note(a.name, items.size() == 1 ? items.front() : Value::of(items));
+  }
+
+  void regions() {
+    Value all;
+    for (const Entry& e : named_tables("regions")) {
+      Section s(&e.value, "regions." + e.key, e.value.place, key_names("regions"));
+      if (e.key == "all") refuse(e.place, "the region \"all\" is the whole mesh and cannot be defined anew.");
+      RegionSpec& spec = problem_.regions.emplace_back();
+      spec.name = e.key;
+      spec.place = e.place;
+      spec.dim = s.integer("dim", {}, 0, 3);
+      spec.where = s.expression("where", problem_.scope);
+      if (spec.where.uses_t()) refuse(s.place("where"), s.path("where") + " must not depend on t.");
+      spec.boundary = s.flag("boundary", false);
+      all.append(e.key, {}, s.resolved());
+    }
+    if (!all.entries.empty()) note("regions", all);
+  }
+
+  void reference() {
+    if (!find("reference")) return;
+    Section s = section("reference");
+    problem_.reference.position = s.expressions("position", problem_.scope, 3);
+    for (const Expression& e : problem_.reference.position)
+      if (e.uses_t()) refuse(s.place("position"), "reference.position must not depend on t.");
+    problem_.reference.order = s.integer("order", 2, 1, 3);
+    note(s);
+  }
+
+  void fields(const Section& top) {
+    if (!top.has("fields")) top.missing("fields");
+    for (const Entry& e : named_tables("fields")) {
+      Section s(&e.value, "fields." + e.key, e.value.place, key_names("fields"));
+      FieldSpec& spec = problem_.fields.emplace_back();
+      spec.name = e.key;
+      spec.place = e.place;
+      const std::string manifold = s.text("manifold");
+      spec.manifold = &at_place(s.place("manifold"), [&]() -> const ManifoldOps& { return manifold_by_name(manifold); });
+      spec.order = s.integer("order", 1, 1, 3);
+      const bool linear = spec.manifold->name.starts_with("R");
+      const std::string rule =
+          s.word("interpolation", {"projection", "geodesic"}, spec.manifold->has_projection || linear ? "projection" : "geodesic");
+      spec.rule = rule == "projection" ? Rule::projection : Rule::geodesic;
+      if (spec.rule == Rule::projection && !linear && !spec.manifold->has_projection)
+        refuse(s.place("interpolation"), "points of the ambient space have no closest point in " + manifold +
+                                             ", so the projection rule is not defined there; use interpolation = \"geodesic\".");
+      spec.on = s.text("on", "all");
+      spec.on_place = s.place("on");
+      field_sections_.push_back(s);
+    }
+    if (problem_.fields.empty()) refuse(find("fields")->place, "fields has no field; write [fields.NAME].");
+  }
+
+  void exact() {
+    for (const Entry& e : named_tables("exact")) {
+      Section s(&e.value, "exact." + e.key, e.value.place, key_names("exact"));
+      const int field = field_index(e.key, e.place);
+      const Value* v = s.raw("value");
+      if (!v) s.missing("value");
+      problem_.exact[field] = PointValue(*v, s.path("value"), *problem_.fields[static_cast<std::size_t>(field)].manifold, problem_.scope);
+      exact_resolved_.append(e.key, {}, s.resolved());
+    }
+  }
+
+  void terms(const Section& top) {
+    read_terms("energies", array_of_tables("energies"), problem_);
+    read_terms("loads", array_of_tables("loads"), problem_);
+    if (problem_.terms.empty() && problem_.exact.empty() && !top.has("energies")) top.missing("energies");
+  }
+
+  /// After the energies, which tell whether a field is a deformation.
+  void initial_values() {
+    Value all;
+    for (std::size_t i = 0; i < problem_.fields.size(); ++i) {
+      FieldSpec& spec = problem_.fields[i];
+      Section& s = field_sections_[i];
+      const Value* v = s.raw("initial");
+      const bool linear = spec.manifold->name.starts_with("R");
+      const bool deforms = linear && is_deformation(static_cast<int>(i));
+      if (v && v->is(Value::Kind::text) && v->text == "reference") {
+        if (!linear) refuse(v->place, s.path("initial") + ": the reference position is no point of " + spec.manifold->name + ".");
+        spec.initial_kind = InitialKind::reference;
+      } else if (v && v->is(Value::Kind::text) && v->text == "exact") {
+        const auto known = problem_.exact.find(static_cast<int>(i));
+        if (known == problem_.exact.end()) refuse(v->place, s.path("initial") + " is \"exact\", but there is no [exact." + spec.name + "].");
+        spec.initial = known->second;
+      } else if (v) {
+        spec.initial = PointValue(*v, s.path("initial"), *spec.manifold, problem_.scope);
+      } else if (deforms) {
+        spec.initial_kind = InitialKind::reference;
+        s.note("initial", Value::of("reference"));
+      } else {
+        spec.initial = PointValue::constant(standard_point(*spec.manifold), s.path("initial"), *spec.manifold);
+        std::vector<Value> items;
+        for (const double x : standard_point(*spec.manifold)) items.push_back(Value::of(x));
+        s.note("initial", Value::of(items));
+      }
+      all.append(spec.name, {}, s.resolved());
+    }
+    // In the resolved file, fields stand before the terms.
+    auto& entries = problem_.resolved.entries;
+    note("fields", all);
+    const auto first_term = std::find_if(entries.begin(), entries.end(), [](const Entry& e) { return e.key == "energies" || e.key == "loads"; });
+    if (first_term != entries.end()) std::rotate(first_term, entries.end() - 1, entries.end());
+  }
+
+  void dirichlet() {
+    std::vector<Value> all;
+    for (const Value& v : array_of_tables("dirichlet")) {
+      Section s(&v, fmt::format("dirichlet.{}", all.size()), v.place, key_names("dirichlet"));
+      read_dirichlet(s);
+      all.push_back(s.resolved());
+    }
+    if (!all.empty()) note("dirichlet", Value::of(all));
+  }
+
+  void read_dirichlet(Section& s) {
+    DirichletSpec& spec = problem_.dirichlet.emplace_back();
+    spec.path = s.path();
+    spec.place = s.place();
+    spec.field = field_index(s.text("field"), s.place("field"));
+    spec.on = s.text("on");
+    spec.on_place = s.place("on");
+    const ManifoldOps& m = *problem_.fields[static_cast<std::size_t>(spec.field)].manifold;
+    const Value* v = s.raw("value");
+    if (!v) s.missing("value");
+    const std::string key = s.path("value");
+    using Component = DirichletSpec::Component;
+    if (v->is(Value::Kind::text) && v->text == "initial") {
+      spec.components.assign(static_cast<std::size_t>(m.dim), Component::initial);
+    } else if (v->is(Value::Kind::text) && v->text == "exact") {
+      const auto known = problem_.exact.find(spec.field);
+      if (known == problem_.exact.end()) refuse(v->place, key + " is \"exact\", but the field has no [exact] value.");
+      spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
+      if (m.name.starts_with("R"))
+        spec.entries = known->second.entries();
+      else
+        spec.point = known->second;
+    } else if (v->is(Value::Kind::table)) {
+      spec.components = axis_free(*v, key, m);
+    } else if (m.name.starts_with("R")) {
+      linear_components(spec, *v, key, m);
+    } else {
+      if (v->is(Value::Kind::array))
+        for (const Value& item : v->items)
+          if (item.is(Value::Kind::text) && (item.text == "free" || item.text == "initial"))
+            refuse(item.place, key + ": components of a point of " + m.name + " cannot be \"" + item.text + "\"; fix the whole point" +
+                                   (m.name == "SO3" ? ", or leave an axis free: value = {axis-free = \"e3\"}." : "."));
+      spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
+      spec.point = PointValue(*v, key, m, problem_.scope);
+    }
+  }
+
+  void linear_components(DirichletSpec& spec, const Value& v, const std::string& key, const ManifoldOps& m) {
+    using Component = DirichletSpec::Component;
+    const bool array = v.is(Value::Kind::array);
+    const std::size_t count = array ? v.items.size() : 1;
+    if (count != static_cast<std::size_t>(m.dim) || (!array && m.dim > 1))
+      refuse(v.place, fmt::format("{} has {} entries, but a point of {} has {}; \"free\" leaves one free.", key, count, m.name, m.dim));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Value& item = array ? v.items[i] : v;
+      const bool word = item.is(Value::Kind::text) && (item.text == "free" || item.text == "initial");
+      spec.components.push_back(!word ? Component::value : item.text == "free" ? Component::free : Component::initial);
+      spec.entries.push_back(word ? Expression(0.0) : expression_of(item, array ? fmt::format("{}.{}", key, i) : key, problem_.scope));
+    }
+    if (std::all_of(spec.components.begin(), spec.components.end(), [](Component c) { return c == Component::free; }))
+      refuse(v.place, key + " leaves every component free.");
+  }
+
+  /// Tangent coordinates of SO(3) are the body rotation vector: with the axis e_k of the body free, a step turns about d_k, which stays where it is.
+  std::vector<DirichletSpec::Component> axis_free(const Value& v, const std::string& key, const ManifoldOps& m) const {
+    using Component = DirichletSpec::Component;
+    Section s(&v, key, v.place, {"axis-free"});
+    const std::string axis = s.word("axis-free", {"e1", "e2", "e3"});
+    if (m.name != "SO3") refuse(v.place, key + ": axis-free is for rotations (SO3), not for " + m.name + ".");
+    std::vector<Component> components(3, Component::initial);
+    components[static_cast<std::size_t>(axis[1] - '1')] = Component::free;
+    return components;
+  }
+
+  void continuation() {
+    Section s = section("continuation");
+    ContinuationOptions& c = problem_.continuation;
+    c.from = s.constant("from", problem_.scope, c.from);
+    c.to = s.constant("to", problem_.scope, c.to);
+    c.steps = s.integer("steps", c.steps, 1, 1000000);
+    c.adaptive = s.flag("adaptive", c.adaptive);
+    c.smallest = s.number("smallest", c.smallest);
+    for (const std::string& sentence : c.validate()) refuse(s.place(), "continuation: " + sentence);
+    note(s);
+  }
+
+  void solver() {
+    Section s = section("solver");
+    SolverOptions& o = problem_.solver;
+    // One option after the other, so that the one that is wrong is the one that is named.
+    const auto check = [&](const std::string& key) {
+      for (const std::string& sentence : o.validate()) refuse(s.place(key), s.path(key) + ": " + sentence);
+    };
+    const auto text = [&](const char* key, std::string& x) { x = s.text(key, x), check(key); };
+    const auto number = [&](const char* key, double& x) { x = s.number(key, x), check(key); };
+    text("method", o.method);
+    text("subproblem", o.subproblem);
+    text("norm", o.norm);
+    number("gradient_tolerance", o.gradient_tolerance);
+    number("absolute_gradient_tolerance", o.absolute_gradient_tolerance);
+    number("step_tolerance", o.step_tolerance);
+    o.max_iterations = s.integer("max_iterations", o.max_iterations, 0, 1000000000), check("max_iterations");
+    number("initial_radius", o.initial_radius);
+    o.max_corrections = s.integer("max_corrections", o.max_corrections, 0, 1000000), check("max_corrections");
+    o.escape = s.flag("escape", o.escape);
+    if (o.method == "gradient-flow" && !(problem_.continuation.to > problem_.continuation.from))
+      refuse(s.place("method"), "a gradient flow needs a time interval: continuation.to must be greater than continuation.from.");
+    note(s);
+  }
+
+  void quadrature() {
+    if (!find("quadrature")) return;
+    Section s = section("quadrature");
+    const int most = 30;
+    for (const CellKind kind : {CellKind::line, CellKind::triangle, CellKind::quadrilateral, CellKind::tetrahedron, CellKind::hexahedron}) {
+      const std::string own(name(kind));
+      const std::string key = s.has(own) ? own : "degree";
+      if (!s.has(key)) continue;
+      const int degree = s.integer(key, {}, 0, most);
+      at_place(s.place(key), [&] { karcher::quadrature(kind, degree); });
+      problem_.quadrature[kind] = degree;
+    }
+    note(s);
+  }
+
+  void probes() {
+    if (!exact_resolved_.entries.empty()) note("exact", exact_resolved_);
+    std::vector<Value> all;
+    for (const Value& v : array_of_tables("probes")) {
+      Section s(&v, fmt::format("probes.{}", all.size()), v.place, key_names("probes"));
+      ProbeSpec spec;
+      spec.place = s.place();
+      spec.name = s.text("name");
+      for (const ProbeSpec& other : problem_.probes)
+        if (other.name == spec.name) refuse(s.place("name"), "there is a probe \"" + spec.name + "\" already (" + other.place.text() + ").");
+      spec.field = field_index(s.text("field"), s.place("field"));
+      const std::vector<double> at = s.constants("at", problem_.scope, 3);
+      for (int i = 0; i < 3; ++i) spec.at[i] = at[static_cast<std::size_t>(i)];
+      const ManifoldOps& m = *problem_.fields[static_cast<std::size_t>(spec.field)].manifold;
+      std::vector<std::string> quantities{"value"};
+      if (m.name.starts_with("R")) quantities.push_back("displacement");
+      if (m.name == "SO3") quantities.insert(quantities.end(), {"rotation-vector", "director1", "director2", "director3"});
+      spec.quantity = s.word("quantity", quantities, "value");
+      if (s.has("at")) spec.place = s.place("at");
+      problem_.probes.push_back(spec);
+      all.push_back(s.resolved());
+    }
+    if (!all.empty()) note("probes", Value::of(all));
+  }
+
+  void output() {
+    Section s = section("output");
+    OutputSpec& o = problem_.output;
+    const Path base = problem_.file.parent_path();
+    Path standard = base / problem_.file.stem();
+    if (standard == problem_.file) standard += ".results";
+    const Path given = s.text("directory", standard.string());
+    o.directory = given.is_absolute() ? given : base / given;
+    if (!options_.output.empty()) o.directory = std::filesystem::absolute(options_.output);
+    o.directory = o.directory.lexically_normal();
+    s.note("directory", Value::of(o.directory.string()));
+    if (std::filesystem::exists(o.directory) && !std::filesystem::is_directory(o.directory))
+      refuse(s.place("directory"), "the directory of results, " + o.directory.string() + ", is a file.");
+    o.vtu = s.flag("vtu", o.vtu);
+    o.report = s.flag("report", o.report);
+    o.every = s.integer("every", o.every, 1, 1000000);
+    note(s);
+  }
+
+  int field_index(const std::string& name, const Place& place) const { return app::field_index(problem_, name, place); }
+  bool is_deformation(int field) const {
+    for (const TermSpec& t : problem_.terms)
+      for (std::size_t k = 0; k < t.fields.size(); ++k)
+        if (t.fields[k] == field && t.info->fields[k].key == "deformation") return true;
+    return false;
+  }
+
+  ReadOptions options_;
+  Value root_;
+  Problem problem_;
+  std::vector<Section> field_sections_;
+  Value exact_resolved_;
+};
+
+}  // namespace
+
+bool DirichletSpec::uses_t() const {
+  return (point.is_given() && point.uses_t()) || std::any_of(entries.begin(), entries.end(), [](const Expression& e) { return e.uses_t(); });
+}
+
+int Problem::deformation() const {
+  for (const TermSpec& t : terms)
+    for (std::size_t k = 0; k < t.fields.size(); ++k)
+      if (t.info->fields[k].key == "deformation") return t.fields[k];
+  return -1;
+}
+
+Problem read_problem(const Path& file, const ReadOptions& options) { return Reader(file, options).read(); }
+
+}  // namespace karcher::app

@@ -1,0 +1,176 @@
+#include "app/read_terms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/section.hpp"
+#include "karcher/text.hpp"
+
+namespace karcher::app {
+namespace {
+
+const EnergyInfo& find_info(const std::string& section, const std::string& type, const Place& place) {
+  const auto& catalogue = section == "energies" ? energy_catalogue() : load_catalogue();
+  const auto& other = section == "energies" ? load_catalogue() : energy_catalogue();
+  std::vector<std::string> names;
+  for (const EnergyInfo& info : catalogue) {
+    if (info.type == type) return info;
+    names.push_back(info.type);
+  }
+  for (const EnergyInfo& info : other)
+    if (info.type == type)
+      refuse(place, fmt::format("\"{}\" is {}; it belongs under [[{}]].", type, section == "energies" ? "a load" : "an energy",
+                                section == "energies" ? "loads" : "energies"));
+  refuse_name(place, section == "energies" ? "there is no energy" : "there is no load", type, names);
+}
+
+/// The parameter, which refuses values out of its range wherever it is evaluated.
+ParameterValue in_range(const Expression& e, const Parameter& p, const std::string& key, const Place& place) {
+  const auto check = [=](double value, const Vec3<double>& x, double t, bool constant) {
+    if (value > p.minimum || (p.minimum_allowed && value == p.minimum)) return;
+    refuse(place, fmt::format("{} is {}{}; it must be {} {}.", key, value,
+                              constant ? std::string() : fmt::format(" at ({}, {}, {}), t = {}", x[0], x[1], x[2], t),
+                              p.minimum_allowed ? "at least" : "greater than", p.minimum));
+  };
+  ParameterValue value = e.parameter();
+  if (e.is_constant()) {
+    check(value.constant, {}, 0, true);
+  } else if (p.minimum > -std::numeric_limits<double>::infinity()) {
+    value.function = [=, inner = value.function](const Vec3<double>& x, double t) {
+      const double v = inner(x, t);
+      check(v, x, t, false);
+      return v;
+    };
+  }
+  return value;
+}
+
+/// mu and lambda of Young's modulus and Poisson's ratio: E / (2 (1 + nu)), E nu / ((1 + nu)(1 - 2 nu)).
+void lame_of_young(Section& s, const Scope& scope, ParameterValues& parameters) {
+  for (const char* key : {"mu", "lambda"})
+    if (s.has(key)) refuse(s.place(key), s.path() + " has young and poisson, which say what \"" + key + "\" is; give one pair or the other.");
+  const Expression young = s.expression("young", scope), poisson = s.expression("poisson", scope);
+  const Place young_place = s.place("young"), poisson_place = s.place("poisson");
+  const std::string path = s.path();
+  const auto lame = [=](const Vec3<double>& x, double t) {
+    const double e = young(x, t), nu = poisson(x, t);
+    if (!(e > 0)) refuse(young_place, fmt::format("{}.young is {}; it must be greater than 0.", path, e));
+    if (!(nu > -1 && nu < 0.5)) refuse(poisson_place, fmt::format("{}.poisson is {}; it must be greater than -1 and less than 1/2.", path, nu));
+    return std::pair(e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu)));
+  };
+  if (young.is_constant() && poisson.is_constant()) {
+    const auto [mu, lambda] = lame({}, 0);
+    parameters["mu"] = mu;
+    parameters["lambda"] = lambda;
+    return;
+  }
+  ParameterValue mu, lambda;
+  mu.depends_on_t = lambda.depends_on_t = young.uses_t() || poisson.uses_t();
+  mu.function = [=](const Vec3<double>& x, double t) { return lame(x, t).first; };
+  lambda.function = [=](const Vec3<double>& x, double t) { return lame(x, t).second; };
+  parameters["mu"] = mu;
+  parameters["lambda"] = lambda;
+}
+
+/// "target" of a distance is a point of the field's manifold; other parameters of as many numbers as ambient coordinates are plain vectors.
+bool is_point(const Parameter& p) { return p.size == Parameter::ambient && p.name == "target"; }
+
+void point_parameter(Section& s, const Parameter& p, const ManifoldOps& m, const Scope& scope, ParameterValues& parameters) {
+  const Value* v = s.raw(p.name);
+  if (!v) s.missing(p.name);
+  const PointValue point(*v, s.path(p.name), m, scope);
+  for (int i = 0; i < m.ambient; ++i) {
+    ParameterValue value;
+    value.depends_on_t = point.uses_t();
+    value.function = [point, i, n = m.ambient](const Vec3<double>& x, double t) {
+      std::vector<double> coordinates(static_cast<std::size_t>(n));
+      point.evaluate(x, t, coordinates.data());
+      return coordinates[static_cast<std::size_t>(i)];
+    };
+    parameters[fmt::format("{}[{}]", p.name, i)] = value;
+  }
+}
+
+void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const Problem& problem, ParameterValues& parameters) {
+  const ManifoldOps& m = *problem.fields[static_cast<std::size_t>(spec.fields.front())].manifold;
+  if (is_point(p)) return point_parameter(s, p, m, problem.scope, parameters);
+  const Place place = s.place(p.name);
+  if (p.size == 1) {
+    const Expression e = s.expression(p.name, problem.scope, p.default_value);
+    parameters[p.name] = in_range(e, p, s.path(p.name), place);
+    return;
+  }
+  const auto size = static_cast<std::size_t>(p.size == Parameter::ambient ? m.ambient : p.size);
+  const std::vector<double> standard = p.default_value ? std::vector<double>(size, *p.default_value) : std::vector<double>();
+  const std::vector<Expression> e = s.expressions(p.name, problem.scope, size, standard);
+  for (std::size_t i = 0; i < size; ++i)
+    parameters[fmt::format("{}[{}]", p.name, i)] = in_range(e[i], p, fmt::format("{}.{}", s.path(p.name), i), place);
+}
+
+void read_fields(Section& s, const EnergyInfo& info, const Problem& problem, TermSpec& spec) {
+  for (const FieldSlot& slot : info.fields) {
+    const std::string name = s.text(slot.key);
+    const int index = field_index(problem, name, s.place(slot.key));
+    const std::string& manifold = problem.fields[static_cast<std::size_t>(index)].manifold->name;
+    if (!slot.manifolds.empty() && std::find(slot.manifolds.begin(), slot.manifolds.end(), manifold) == slot.manifolds.end())
+      refuse(s.place(slot.key), fmt::format("{} of {} takes a field with values in {}; \"{}\" has values in {}.", s.path(slot.key), info.type,
+                                            join_names(slot.manifolds, " or "), name, manifold));
+    for (std::size_t k = 0; k < spec.fields.size(); ++k)
+      if (spec.fields[k] == index)
+        refuse(s.place(slot.key), fmt::format("{}: the field \"{}\" is used twice, as {} and as {}.", s.path(), name, info.fields[k].key, slot.key));
+    spec.fields.push_back(index);
+  }
+}
+
+}  // namespace
+
+int field_index(const Problem& problem, const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < problem.fields.size(); ++i) {
+    if (problem.fields[i].name == name) return static_cast<int>(i);
+    names.push_back(problem.fields[i].name);
+  }
+  refuse(place, "there is no field \"" + name + "\". " + suggestion(name, names, "Fields"));
+}
+
+std::vector<std::string> term_keys(const EnergyInfo& info) {
+  std::vector<std::string> keys{"type", "on"};
+  for (const FieldSlot& f : info.fields) keys.push_back(f.key);
+  for (const Parameter& p : info.parameters) keys.push_back(p.name);
+  if (info.lame) keys.insert(keys.end(), {"young", "poisson"});
+  for (const Choice& c : info.choices) keys.push_back(c.name);
+  return keys;
+}
+
+void read_terms(const std::string& section, const std::vector<Value>& tables, Problem& problem) {
+  std::vector<Value> resolved;
+  for (const Value& table : tables) {
+    const std::string path = fmt::format("{}.{}", section, resolved.size());
+    if (!table.is(Value::Kind::table)) refuse(table.place, path + " must be a table, not " + table.kind_name() + ".");
+    const Entry* type = table.find("type");
+    if (!type) refuse(table.place, path + " lacks the key \"type\".");
+    if (!type->value.is(Value::Kind::text)) refuse(type->value.place, path + ".type must be a string, not " + type->value.kind_name() + ".");
+    const EnergyInfo& info = find_info(section, type->value.text, type->value.place);
+    Section s(&table, path, table.place, term_keys(info));
+
+    TermSpec spec;
+    spec.type = s.text("type") + (section == "loads" ? "-load" : "");
+    spec.path = path;
+    spec.place = table.place;
+    spec.info = &info;
+    spec.on = s.text("on", "all");
+    spec.on_place = s.place("on");
+    read_fields(s, info, problem, spec);
+    for (const Choice& c : info.choices) spec.choices[c.name] = s.word(c.name, c.values, c.values.front());
+    const bool young = info.lame && (s.has("young") || s.has("poisson"));
+    if (young) lame_of_young(s, problem.scope, spec.parameters);
+    for (const Parameter& p : info.parameters)
+      if (!young || (p.name != "mu" && p.name != "lambda")) read_parameter(s, p, spec, problem, spec.parameters);
+    problem.terms.push_back(std::move(spec));
+    resolved.push_back(s.resolved());
+  }
+  if (!resolved.empty()) problem.resolved.append(section, {}, Value::of(std::move(resolved)));
+}
+
+}  // namespace karcher::app

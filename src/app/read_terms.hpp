@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// [[energies]] and [[loads]]: read by the tables of the catalogue.
+
+#include "app/problem.hpp"
+
+namespace karcher::app {
+
+/// Appends the terms to the problem and their resolved form to problem.resolved. \param section "energies" or "loads"
+void read_terms(const std::string& section, const std::vector<Value>& tables, Problem& problem);
+
+/// \throws InputError naming the fields there are and the nearest
+int field_index(const Problem& problem, const std::string& name, const Place& place);
+
+/// All keys that an energy or a load takes, "type" and "on" first.
+std::vector<std::string> term_keys(const EnergyInfo& info);
+
+}  // namespace karcher::app

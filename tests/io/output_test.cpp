@@ -7,6 +7,7 @@
 
 #include "io/judge.hpp"
 #include "io/temporary_directory.hpp"
+#include "karcher/assembly/catalogue.hpp"
 #include "karcher/io/vtu.hpp"
 #include "karcher/mesh/generators.hpp"
 
@@ -315,6 +316,48 @@ TEST(Output, EnergyDensitiesAreEnergiesPerReferenceMeasureHoweverTheCellsAreShar
     }
   }
   EXPECT_TRUE(output.sample(zero)[0].cell_data.empty());
+}
+
+TEST(Output, TheDensitiesOfAShellAndOfItsPartsAddUpToItsEnergy) {
+  const auto mesh = generated("rectangle", {{"size", {2, 1}}, {"cells", {5, 3}}}, {{"shape", "triangle"}});
+  TermInput input;
+  input.mesh = mesh;
+  input.region = mesh->region("all");
+  input.all_fields = {field_on(mesh, input.region, "m", "R3", 2), field_on(mesh, input.region, "Q", "SO3", 1)};
+  input.fields = {0, 1};
+  input.parameters = {{"thickness", 0.3}, {"mu", 3.0}, {"lambda", 2.0}, {"mu_c", 1.5}, {"L_c", 0.2}, {"b[0]", 1.2}, {"b[1]", 0.7}, {"b[2]", 0.4}};
+  input.choices = {{"coupling", "default"}};
+  const std::vector<Field> fields = input.all_fields;
+  // The sheet lies in its reference place, so that VTK integrates over the reference, but its rotations vary.
+  const Configuration u{{nodal(fields[0],
+                               [](const Vec3<double>& x) {
+                                 return std::vector<double>{x[0], x[1], x[2]};
+                               }),
+                         nodal(fields[1], [](const Vec3<double>& x) { return rotation_about_e3(0.4 * x[0] - 0.3 * x[1] * x[1]); })},
+                        0};
+  std::vector<std::unique_ptr<Term>> terms;
+  terms.push_back(make_term("cosserat-shell", input));
+  const std::vector<std::vector<char>> fixed{std::vector<char>(static_cast<std::size_t>(3 * fields[0].space->node_count()), 0),
+                                             std::vector<char>(static_cast<std::size_t>(3 * fields[1].space->node_count()), 0)};
+  const Functional functional(std::make_shared<const Layout>(std::span(fields), fixed, CellRanks(mesh->cells.size(), 0), 0, 1), std::move(terms));
+  OutputModel model{.fields = fields, .deformation = 0};
+  set_terms(model, functional);
+  const Output output(model);
+  const TemporaryDirectory directory;
+  write_vtu(directory / "shell.vtu", output.sample(u, output.cell_energies(functional, u))[0], 0);
+  const auto integrals = judge({directory / "shell.vtu"})[0]["integrals"];
+
+  const double energy = functional.energy(u).energy;
+  ASSERT_GT(energy, 0.01);
+  EXPECT_NEAR(integrals["energy_density.cosserat-shell"][0].get<double>(), energy, 1e-13 * energy);
+  const std::vector<double> parts = functional.terms()[0]->part_energies(u);
+  double sum = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const double part = integrals["energy_density.cosserat-shell." + functional.terms()[0]->part_names()[k]][0].get<double>();
+    EXPECT_NEAR(part, parts[k], 1e-13 * energy);
+    sum += part;
+  }
+  EXPECT_NEAR(sum, energy, 1e-13 * energy);
 }
 
 TEST(Output, VtkIntegratesTheFieldsOfEveryKindOfCell) {

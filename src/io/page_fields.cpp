@@ -56,76 +56,50 @@ class Fields {
     list.push_back({{"name", name}, {"label", label}, {"kind", "scalar"}, {"at", "cell"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
   }
 
-  /// Numbers at every vertex from those of one part's array (index in point_data; -1: the displacement). out: components(kind) numbers.
-  void add_vertex_field(const std::string& name, const std::string& label, const std::string& kind, const std::string& array,
+  /// Numbers at every vertex (three for a direction, else one) from the interpolated numbers of some arrays, one after the other.
+  void add_vertex_field(const std::string& name, const std::string& label, const std::string& kind, const std::vector<std::string>& from,
                         const std::function<void(const double* in, double* out)>& value) {
-    const int size = kind == "direction" ? 3 : 1;
+    const std::size_t size = kind == "direction" ? 3 : 1;
     json numbers = json::array();
     long bad = 0;
     for (const int s : states_) {
       const StoredState& state = store_.states[static_cast<std::size_t>(s)];
-      Values v(shape_.vertices.size() * static_cast<std::size_t>(size), missing);
+      Values v(shape_.vertices.size() * size, missing);
       for (std::size_t i = 0; i < shape_.vertices.size(); ++i) {
-        const auto p = static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[i].facet)].part);
-        const StoredPart& part = store_.parts[p];
-        const bool moved = array == "displacement";
-        const int k = moved ? -1 : index_of(part.point_data, array);
-        if (moved ? !part.moves : k < 0) continue;
-        double in[16], out[3];
-        if (moved)
-          shape_.interpolate(i, state.parts[p].displacement, 3, in);
-        else
-          shape_.interpolate(i, state.parts[p].point_data[static_cast<std::size_t>(k)], part.point_data[static_cast<std::size_t>(k)].components, in);
+        double in[max_inputs], out[3];
+        if (!interpolate(i, state, from, in)) continue;
         value(in, out);
-        bool fine = true;
-        for (int c = 0; c < size; ++c) {
-          v[i * static_cast<std::size_t>(size) + static_cast<std::size_t>(c)] = static_cast<float>(out[c]);
-          fine = fine && std::isfinite(out[c]);
-        }
-        bad += !fine;
+        bad += !std::all_of(out, out + size, [](double x) { return std::isfinite(x); });
+        for (std::size_t c = 0; c < size; ++c) v[i * size + c] = static_cast<float>(out[c]);
       }
-      numbers.push_back(arrays_.add_quantised(v, size));
+      numbers.push_back(arrays_.add_quantised(v, static_cast<int>(size)));
     }
     list.push_back({{"name", name}, {"label", label}, {"kind", kind}, {"at", "vertex"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
   }
 
-  /// Angle in degrees, 0 to 90, between a director and the normal of the deformed surface; per facet at its vertices, averaged (a director without a sense).
-  void add_normal_angle(const std::string& name, const std::string& label, const std::string& array) {
+  /// Angle in degrees, 0 to 90, between a direction and the normal of the deformed surface. director(in, n0, d): d from the interpolated arrays and the
+  /// normal of the reference surface.
+  void add_normal_angle(const std::string& label, const std::vector<std::string>& from,
+                        const std::function<Vec3<double>(const double* in, const Vec3<double>& n0)>& director) {
     json numbers = json::array();
     long bad = 0;
-    const std::size_t n = shape_.vertices.size();
-    std::vector<double> x(3 * n);
+    const std::vector<Vec3<double>> reference = normals(nullptr);
     for (const int s : states_) {
       const StoredState& state = store_.states[static_cast<std::size_t>(s)];
-      for (std::size_t i = 0; i < n; ++i) position(i, state, &x[3 * i]);
-      // Normals of the triangles around a vertex, aligned with the first one: the surface need not have two sides.
-      std::vector<Vec3<double>> normal(n, Vec3<double>{});
-      for (std::size_t t = 0; t < shape_.triangle_facets.size(); ++t) {
-        const auto at = [&](std::size_t k) {
-          const double* p = &x[3 * shape_.triangles[3 * t + k]];
-          return Vec3<double>{{p[0], p[1], p[2]}};
-        };
-        const Vec3<double> a = cross(at(1) - at(0), at(2) - at(0));
-        for (std::size_t k = 0; k < 3; ++k) {
-          Vec3<double>& sum = normal[shape_.triangles[3 * t + k]];
-          sum = dot(sum, a) < 0 ? sum - a : sum + a;
-        }
-      }
-      Values v(n, missing);
-      for (std::size_t i = 0; i < n; ++i) {
-        const auto p = static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[i].facet)].part);
-        const int k = index_of(store_.parts[p].point_data, array);
-        if (k < 0 || store_.parts[p].dim != 2) continue;
-        Vec3<double> d;
-        shape_.interpolate(i, state.parts[p].point_data[static_cast<std::size_t>(k)], 3, &d[0]);
-        const Vec3<double> c = cross(d, normal[i]);
+      const std::vector<Vec3<double>> normal = normals(&state);
+      Values v(shape_.vertices.size(), missing);
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        double in[max_inputs];
+        if (store_.parts[part_of(i)].dim != 2 || !interpolate(i, state, from, in)) continue;
+        const Vec3<double> d = director(in, reference[i]), c = cross(d, normal[i]);
         const double angle = std::atan2(std::sqrt(dot(c, c)), std::abs(dot(d, normal[i]))) * degree;
         v[i] = static_cast<float>(angle);
         bad += !std::isfinite(angle);
       }
       numbers.push_back(arrays_.add_quantised(v));
     }
-    list.push_back({{"name", name}, {"label", label}, {"kind", "scalar"}, {"at", "vertex"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
+    list.push_back(
+        {{"name", "normal_angle"}, {"label", label}, {"kind", "scalar"}, {"at", "vertex"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
   }
 
   /// Things at the nodes of the parts that have the array, thinned to one in every box of an even grid if there are too many.
@@ -167,17 +141,52 @@ class Fields {
                       {"arrays", std::move(numbers)}});
   }
 
-  /// Place of a vertex at a state.
-  void position(std::size_t vertex, const StoredState& state, double* x) const {
-    const auto p = static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[vertex].facet)].part);
-    shape_.interpolate(vertex, store_.parts[p].reference, 3, x);
-    if (!store_.parts[p].moves) return;
-    double u[3];
-    shape_.interpolate(vertex, state.parts[p].displacement, 3, u);
-    for (int i = 0; i < 3; ++i) x[i] += u[i];
+ private:
+  static constexpr std::size_t max_inputs = 16;
+
+  std::size_t part_of(std::size_t vertex) const {
+    return static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[vertex].facet)].part);
   }
 
- private:
+  /// The arrays at a vertex, one after the other; false where its part does not have them.
+  bool interpolate(std::size_t vertex, const StoredState& state, const std::vector<std::string>& from, double* out) const {
+    const std::size_t p = part_of(vertex);
+    const StoredPart& part = store_.parts[p];
+    for (const std::string& name : from) {
+      const bool moved = name == "displacement";
+      const int k = moved ? -1 : index_of(part.point_data, name);
+      if (moved ? !part.moves : k < 0) return false;
+      const int components = moved ? 3 : part.point_data[static_cast<std::size_t>(k)].components;
+      shape_.interpolate(vertex, moved ? state.parts[p].displacement : state.parts[p].point_data[static_cast<std::size_t>(k)], components, out);
+      out += components;
+    }
+    return true;
+  }
+
+  /// Sums of the normals of the triangles around every vertex, weighted by area and aligned with the first one (the surface need not have two sides);
+  /// of the reference surface for a null state.
+  std::vector<Vec3<double>> normals(const StoredState* state) const {
+    const std::size_t n = shape_.vertices.size();
+    std::vector<Vec3<double>> x(n), out(n, Vec3<double>{});
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t p = part_of(i);
+      shape_.interpolate(i, store_.parts[p].reference, 3, &x[i][0]);
+      if (!state || !store_.parts[p].moves) continue;
+      Vec3<double> u;
+      shape_.interpolate(i, state->parts[p].displacement, 3, &u[0]);
+      x[i] += u;
+    }
+    for (std::size_t t = 0; t < shape_.triangle_facets.size(); ++t) {
+      const std::uint32_t* v = &shape_.triangles[3 * t];
+      const Vec3<double> a = cross(x[v[1]] - x[v[0]], x[v[2]] - x[v[0]]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        Vec3<double>& sum = out[v[k]];
+        sum = dot(sum, a) < 0 ? sum - a : sum + a;
+      }
+    }
+    return out;
+  }
+
   /// Whether the facet carries this cell array at all; elsewhere "no number" is no news.
   bool here(const std::string& name, const PageFacet& f) const {
     if (name == "energy") return true;
@@ -249,10 +258,17 @@ void normalised(const double* in, int n, double* out) {
   for (int i = 0; i < 3; ++i) out[i] = i < n ? scale * in[i] : 0;
 }
 
+/// Names of the arrays of a rotation's columns (output.hpp).
+std::vector<std::string> directors_of(const Store& store, const std::string& field) {
+  const auto rotations = std::count_if(store.manifolds.begin(), store.manifolds.end(), [](const auto& f) { return f.second == "SO3"; });
+  const std::string prefix = rotations > 1 ? field + "." : "";
+  return {prefix + "director1", prefix + "director2", prefix + "director3"};
+}
+
 void add_field(const Store& store, const std::string& name, const std::string& manifold, int most_glyphs, Fields& fields) {
   const auto components = [&](int n) {
     for (int c = 0; c < n; ++c)
-      fields.add_vertex_field(fmt::format("{}.{}", name, c + 1), fmt::format("{}, component {}", name, c + 1), "scalar", name,
+      fields.add_vertex_field(fmt::format("{}.{}", name, c + 1), fmt::format("{}, component {}", name, c + 1), "scalar", {name},
                               [c](const double* in, double* out) { out[0] = in[c]; });
   };
   if (manifold == "SO3" || manifold == "SU2") {
@@ -262,12 +278,15 @@ void add_field(const Store& store, const std::string& name, const std::string& m
       for (int c = 0; c < 4; ++c) out[c] = in[(c + 1) % 4];
     });
     if (!triad) return components(4);
-    fields.add_vertex_field(name + ".angle", "rotation angle of " + name + " in degrees", "scalar", name, [](const double* in, double* out) {
-      out[0] = 2 * std::atan2(std::sqrt(in[1] * in[1] + in[2] * in[2] + in[3] * in[3]), std::abs(in[0])) * degree;
-    });
+    fields.add_vertex_field(name + ".angle", "rotation angle of " + name + " in degrees", "scalar", directors_of(store, name),
+                            [](const double* r, double* out) {
+                              // r: the columns of the matrix. 2 sin of the angle is the length of the axial vector of R - R^T, 2 cos is the trace less 1.
+                              const double x = r[5] - r[7], y = r[6] - r[2], z = r[1] - r[3];
+                              out[0] = std::atan2(std::sqrt(x * x + y * y + z * z), r[0] + r[4] + r[8] - 1) * degree;
+                            });
   } else if (manifold == "S1" || manifold == "S2") {
     const int n = manifold == "S1" ? 2 : 3;
-    fields.add_vertex_field(name, name + " as colour", "direction", name, [n](const double* in, double* out) { normalised(in, n, out); });
+    fields.add_vertex_field(name, name + " as colour", "direction", {name}, [n](const double* in, double* out) { normalised(in, n, out); });
     const bool nematic = std::any_of(store.terms.begin(), store.terms.end(), [](const std::string& t) { return t.rfind("frank-oseen", 0) == 0; });
     fields.add_glyphs(name, nematic ? "rod" : "arrow", name, 3, most_glyphs, [n](const float* in, double* out) {
       for (int c = 0; c < 3; ++c) out[c] = c < n ? static_cast<double>(in[c]) : 0;
@@ -289,14 +308,14 @@ void add_field(const Store& store, const std::string& name, const std::string& m
         std::copy_n(flat, 6, out);
       }
     });
-    fields.add_vertex_field(name + ".trace", "trace of " + name, "scalar", name,
+    fields.add_vertex_field(name + ".trace", "trace of " + name, "scalar", {name},
                             [n](const double* in, double* out) { out[0] = n == 2 ? in[0] + in[3] : in[0] + in[4] + in[8]; });
     if (store.deformation.empty()) fields.first_glyphs = name;
   } else if (manifold.size() == 2 && manifold[0] == 'R') {
     const int n = manifold[1] - '0';
     if (name == store.deformation) return;
     if (n == 1)
-      fields.add_vertex_field(name, name, "scalar", name, [](const double* in, double* out) { out[0] = in[0]; });
+      fields.add_vertex_field(name, name, "scalar", {name}, [](const double* in, double* out) { out[0] = in[0]; });
     else
       components(n);
     if (store.deformation.empty() && fields.first_field.empty()) fields.first_field = n == 1 ? name : name + ".1";
@@ -367,17 +386,25 @@ json shape_header(const Store& store, const std::vector<int>& states, const Page
   Fields fields(store, states, shape, arrays);
   add_energies(store, fields);
   if (moves) {
-    fields.add_vertex_field("displacement", "displacement", "scalar", "displacement",
+    fields.add_vertex_field("displacement", "displacement", "scalar", {"displacement"},
                             [](const double* in, double* v) { v[0] = std::sqrt(in[0] * in[0] + in[1] * in[1] + in[2] * in[2]); });
-    const auto has = [&](const std::string& name) {
+    const auto on_surface = [&](const std::string& name) {
       return std::any_of(store.parts.begin(), store.parts.end(),
                          [&](const StoredPart& p) { return p.dim == 2 && index_of(p.point_data, name) >= 0; });
     };
     for (const auto& [name, manifold] : store.manifolds) {
-      const std::string d3 = has("director3") ? "director3" : name + ".director3";
-      if (manifold == "SO3" && has(d3)) fields.add_normal_angle("normal_angle", "angle of director 3 to the surface normal, in degrees", d3);
-      if (manifold == "S2" && has(name))
-        fields.add_normal_angle("normal_angle", fmt::format("angle of {} to the surface normal, in degrees", name), name);
+      if (!on_surface(name)) continue;
+      if (manifold == "SO3")
+        fields.add_normal_angle("angle of the director Q n₀ to the surface normal, in degrees", directors_of(store, name),
+                                [](const double* r, const Vec3<double>& n) {
+                                  Vec3<double> d{};
+                                  for (int i = 0; i < 3; ++i) d[i] = r[i] * n[0] + r[3 + i] * n[1] + r[6 + i] * n[2];
+                                  return d;
+                                });
+      if (manifold == "S2")
+        fields.add_normal_angle(fmt::format("angle of {} to the surface normal, in degrees", name), {name}, [](const double* d, const Vec3<double>&) {
+          return Vec3<double>{{d[0], d[1], d[2]}};
+        });
     }
   }
   for (const auto& [name, manifold] : store.manifolds) add_field(store, name, manifold, most_glyphs, fields);

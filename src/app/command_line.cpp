@@ -8,7 +8,7 @@
 #include "app/launch.hpp"
 #include "app/ranks.hpp"
 #include "app/verbs.hpp"
-#include "app/view.hpp"
+#include "karcher/io/view.hpp"
 
 namespace karcher::app {
 namespace {
@@ -75,9 +75,34 @@ int command_line(int argc, char** argv) {
   check_verb.callback([&] { action = [&] { return on_ranks([&] { return check(check_options); }); }; });
 
   ViewOptions view_options;
-  CLI::App& view_verb = *app.add_subcommand("view", "(re)make the page of a directory of results");
+  std::vector<double> direction;
+  std::vector<std::string> shown;
+  CLI::App& view_verb = *app.add_subcommand("view", "(re)make the page of a directory of results, and a picture of it");
   view_verb.add_option("DIR", view_options.directory, "directory of results")->required();
-  view_verb.callback([&] { action = [&] { return view(view_options); }; });
+  view_verb.add_option("--png", view_options.png, "make a picture, by the Chromium of this machine")->type_name("FILE");
+  view_verb.add_option("--view", direction, "direction from the shape to the eye, as 1,-1,0.5")->delimiter(',')->type_name("X,Y,Z");
+  view_verb.add_option("--field", view_options.field, "colour by: energy, displacement, the name of a field, ..., none")->type_name("NAME");
+  view_verb.add_option("--step", view_options.step, "load step; 0 is the initial configuration")->type_name("K");
+  view_verb.add_option("--width", view_options.width, "of the picture, in pixels")->capture_default_str();
+  view_verb.add_option("--height", view_options.height, "of the picture, in pixels")->capture_default_str();
+  view_verb.add_flag("--dark", view_options.dark, "on dark ground");
+  view_verb.add_option("--show", shown, "a setting of the page: edges=0, map=cividis, scale=10, clip=x, \"glyphs=directors of Q\", up=0,1,0, ...")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+  view_verb.callback([&] {
+    action = [&] {
+      if (!direction.empty() && direction.size() != 3) throw InputError("--view takes three numbers, as 1,-1,0.5.");
+      if (!direction.empty()) view_options.view = {direction[0], direction[1], direction[2]};
+      for (const std::string& s : shown) {
+        const std::size_t equals = s.find('=');
+        if (equals == std::string::npos) throw InputError("--show takes KEY=VALUE, as edges=0; \"" + s + "\" has no =.");
+        view_options.settings.emplace_back(s.substr(0, equals), s.substr(equals + 1));
+      }
+      return view(view_options);
+    };
+  });
 
   std::string name, example;
   CLI::App& new_verb = *app.add_subcommand("new", "start from a worked example");

@@ -117,6 +117,8 @@ void Scope::define(const std::string& name, Expression value, const Place& place
 Expression Scope::compile(const std::string& text, const std::string& key, const Place& place) const {
   Expression result(0.0);
   Expression::State& s = *result.state_;
+  s.constant.reset();
+  s.constant.reset();
   s.text = text;
   s.key = key;
   s.place = place;

@@ -118,7 +118,6 @@ Expression Scope::compile(const std::string& text, const std::string& key, const
   Expression result(0.0);
   Expression::State& s = *result.state_;
   s.constant.reset();
-  s.constant.reset();
   s.text = text;
   s.key = key;
   s.place = place;

@@ -48,7 +48,9 @@ Ancestor ancestor(const std::vector<Level>& levels, std::size_t fine, std::size_
 }
 
 /// The function of the level before as nodal values of the last level; nodes where it is not defined keep their values.
-void prolong(const std::vector<Level>& levels, Configuration& u) {
+/// Nodes with boundary data keep theirs, too.
+void prolong(const std::vector<Level>& levels, const Constraints& constraints, Configuration& u) {
+  const Configuration initial = u;
   const std::size_t fine = levels.size() - 1;
   const Level& coarse = levels[fine - 1];
   for (std::size_t f = 0; f < coarse.fields.size(); ++f) {
@@ -69,6 +71,14 @@ void prolong(const std::vector<Level>& levels, Configuration& u) {
         std::copy(at.value.begin(), at.value.end(), u.values[f].begin() + to.cell_nodes(static_cast<int>(c))[i] * n);
       }
     }
+    const std::vector<char>& fixed = constraints.fixed()[f];
+    const int dim = from.manifold->dim;
+    for (int node = 0; node < to.node_count(); ++node)
+      for (int i = 0; i < dim; ++i) {
+        if (!fixed[static_cast<std::size_t>(node * dim + i)]) continue;
+        const auto first = static_cast<std::size_t>(node * n + (n == dim ? i : 0)), count = static_cast<std::size_t>(n == dim ? 1 : n);
+        std::copy_n(initial.values[f].begin() + static_cast<std::ptrdiff_t>(first), count, u.values[f].begin() + static_cast<std::ptrdiff_t>(first));
+      }
   }
 }
 
@@ -84,7 +94,7 @@ void errors_against_finest(std::vector<Level>& levels, const Model& finest_model
         const Cell& cell = space.region().cells[c];
         if (finest_model.layout->ranks() > 1 && finest_model.layout->cell_rank(cell) != finest_model.layout->rank()) continue;
         const auto dim = static_cast<std::size_t>(dimension(cell.kind));
-        const Quadrature& rule = quadrature(cell.kind, 2 * space.order() + 4);
+        const Quadrature& rule = quadrature(cell.kind, 2 * space.order() + 10);
         for (std::size_t q = 0; q < rule.points.size(); ++q) {
           const Metric metric(geometry(*levels[fine].mesh, cell, rule.points[q]), static_cast<int>(dim));
           const FieldSample a = sample_field(field, levels[fine].u.values[f], static_cast<int>(c), rule.points[q]);
@@ -241,7 +251,7 @@ int converge(const ConvergeOptions& options) {
     if (talks && isatty(STDERR_FILENO)) fmt::print(stderr, "level {}: {} unknowns\n", k, level.unknowns);
     level.u = model.discretisation.initial;
     const bool prolonged = solves && k > 0 && options.start == "prolonged";
-    if (prolonged) prolong(levels, level.u);
+    if (prolonged) prolong(levels, model.discretisation.constraints, level.u);
     Status reached = Status::converged;
     if (solves) {
       reached = solve(problem, model, level.u, prolonged);

@@ -52,7 +52,7 @@ std::map<std::string, Summary::Error> errors_against_exact(const Problem& proble
         const Cell& cell = space.region().cells[c];
         if (model.layout->ranks() > 1 && model.layout->cell_rank(cell) != model.layout->rank()) continue;
         const int dim = dimension(cell.kind);
-        const Quadrature& rule = quadrature(cell.kind, 2 * space.order() + 4);
+        const Quadrature& rule = quadrature(cell.kind, 2 * space.order() + 10);
         for (std::size_t q = 0; q < rule.points.size(); ++q) {
           const GeometryJet g = geometry(*model.discretisation.mesh, cell, rule.points[q]);
           const Metric metric(g, dim);

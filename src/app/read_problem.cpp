@@ -59,9 +59,10 @@ class Reader {
     return Section(v, name, v ? v->place : Place{root_.place.file, 1, 1}, std::move(keys));
   }
   /// The entries of [name.X] tables.
-  std::vector<Entry> named_tables(const std::string& name) const {
+  const std::vector<Entry>& named_tables(const std::string& name) const {
+    static const std::vector<Entry> none;
     const Value* v = find(name);
-    if (!v) return {};
+    if (!v) return none;
     if (!v->is(Value::Kind::table)) refuse(v->place, name + " must be tables [" + name + ".NAME], not " + v->kind_name() + ".");
     for (const Entry& e : v->entries)
       if (!e.value.is(Value::Kind::table))
@@ -69,9 +70,10 @@ class Reader {
                             e.value.kind_name() + ".");
     return v->entries;
   }
-  std::vector<Value> array_of_tables(const std::string& name) const {
+  const std::vector<Value>& array_of_tables(const std::string& name) const {
+    static const std::vector<Value> none;
     const Value* v = find(name);
-    if (!v) return {};
+    if (!v) return none;
     if (!v->is(Value::Kind::array)) refuse(v->place, name + " must be an array of tables: write [[" + name + "]].");
     return v->items;
   }

@@ -11,8 +11,8 @@ namespace karcher {
 
 using Map = std::function<Vec3<double>(const Vec3<double>&)>;
 
-/// Cells of order 1 (`nodes` are vertex numbers from 0 without gaps, `parameters` one for each) to a mesh of the given order: every node is the image of the
-/// parameters that (multi)linear interpolation gives it, through the first cell that has the node. Region "all" is set, all others are not.
+/// Cells of order 1 (`nodes` are vertex numbers from 0 without gaps, `parameters` one for each) to a mesh of the given order: every node is the image
+/// of the parameters that (multi)linear interpolation gives it, through the first cell that has the node. Region "all" is set, all others are not.
 /// \throws InputError as check_identity does
 Mesh elevate(std::vector<Cell> cells, int order, const Map& map);
 

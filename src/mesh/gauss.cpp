@@ -47,7 +47,8 @@ GaussRule gauss_jacobi(int n, int alpha) {
       if (std::abs(step) < 4 * std::numeric_limits<Real>::epsilon()) break;
     }
     roots.push_back(x);
-    // Weight of (1 - x)^alpha on [-1, 1]: 2^(alpha + 1) / ((1 - x^2) P'^2) for beta = 0 (Abramowitz and Stegun 25.4.33); 2^(alpha + 1) goes with [0, 1].
+    // Weight of (1 - x)^alpha on [-1, 1]: 2^(alpha + 1) / ((1 - x^2) P'^2) for beta = 0 (Abramowitz and Stegun 25.4.33); on [0, 1] the power of 2
+    // goes.
     const Real derivative = jacobi(n, alpha, x).derivative;
     rule.points.push_back(static_cast<double>((1 + x) / 2));
     rule.weights.push_back(static_cast<double>(1 / ((1 - x * x) * derivative * derivative)));

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Equispaced lattices on reference cells, of any order q (a cell of order p refined once has the lattice of order 2 p), and the smallest entity of the
-/// cell that holds each point. Everything in integers, so that equal places are found equal.
+/// Equispaced lattices on reference cells, of any order q (a cell of order p refined once has the lattice of order 2 p), and the smallest entity of
+/// the cell that holds each point. Everything in integers, so that equal places are found equal.
 
 #include <array>
 #include <vector>

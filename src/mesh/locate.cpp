@@ -88,8 +88,8 @@ class NearestInCell {
     }
   }
 
-  /// Newton (Gauss-Newton where the Hessian is indefinite) from the middle of the part, damped so that the distance falls; if that ends outside of the part,
-  /// its own facets are searched.
+  /// Newton (Gauss-Newton where the Hessian is indefinite) from the middle of the part, damped so that the distance falls; if that ends outside of
+  /// the part, its own facets are searched.
   void search(const Part& part) {
     if (part.kind == CellKind::vertex) return offer(part.corners[0]);
     const int dim = dimension(part.kind);

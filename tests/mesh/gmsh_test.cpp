@@ -160,8 +160,6 @@ TEST(Gmsh, LeavesOutNodesThatNoCellUses) {
   EXPECT_NEAR(measure(mesh), 0.5, 1e-14);
 }
 
-// --- what is refused ------------------------------------------------------------------------------------------------------------------------------
-
 std::string ascii(const std::string& nodes, const std::string& cells) {
   return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes + "$EndNodes\n$Elements\n" + cells + "$EndElements\n";
 }

@@ -2,8 +2,8 @@
 /// \file
 /// Space: the Lagrange nodes of order p on a region of a mesh.
 ///
-/// A node belongs to a mesh vertex, an edge (identified by its two vertices), a face (by its vertices) or a cell, so spaces on a solid and on a part of its
-/// boundary share nodes where they touch, and the nodes of an entity are found from the entity's vertices alone.
+/// A node belongs to a mesh vertex, an edge (identified by its two vertices), a face (by its vertices) or a cell, so spaces on a solid and on a part
+/// of its boundary share nodes where they touch, and the nodes of an entity are found from the entity's vertices alone.
 
 #include <memory>
 #include <vector>

@@ -44,8 +44,9 @@ struct GeneratorOptions {
   std::map<std::string, std::string> words;            ///< arguments that are choices
 };
 
-/// The mesh, with region "all", the regions of its boundary pieces, and "boundary" if it has a boundary. Nodes lie on the exact surface, and so do those of
-/// its refinements. \throws InputError for unknown generators and arguments, numbers out of range, and meshes too coarse around (less than three cells).
+/// The mesh, with region "all", the regions of its boundary pieces, and "boundary" if it has a boundary. Nodes lie on the exact surface, and so do
+/// those of its refinements. \throws InputError for unknown generators and arguments, numbers out of range, and meshes too coarse around (less than
+/// three cells).
 Mesh generate(const GeneratorOptions& options);
 
 }  // namespace karcher

@@ -47,8 +47,9 @@ std::vector<Cell> entities(const Mesh& mesh, int dim, bool boundary_only);
 /// Region of all entities of dimension dim whose every geometry node satisfies the predicate. \throws InputError if empty.
 Region select(const Mesh& mesh, const std::string& name, int dim, bool boundary_only, const std::function<bool(const Vec3<double>&)>& predicate);
 
-/// Makes sure that entities can be told apart by their vertices, which everything built on a mesh relies on. \throws InputError if a cell has a vertex
-/// twice, if two cells have the same vertices, or if two different edges join the same two vertices (a periodic mesh needs three cells around).
+/// Makes sure that entities can be told apart by their vertices, which everything built on a mesh relies on. \throws InputError if a cell has a
+/// vertex twice, if two cells have the same vertices, or if two different edges join the same two vertices (a periodic mesh needs three cells
+/// around).
 void check_identity(const Mesh& mesh);
 
 /// Position, tangents dx/dxi_a and second derivatives of the cell's own Lagrange geometry at a reference point.

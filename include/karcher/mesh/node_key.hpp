@@ -2,7 +2,8 @@
 /// \file
 /// The identity of a place of a mesh that does not depend on the cell through which it is seen, and a numbering of such places.
 ///
-/// Spaces use it for their nodes, refinement and generators for geometry nodes, so that all of them agree where cells touch, whatever their orientation.
+/// Spaces use it for their nodes, refinement and generators for geometry nodes, so that all of them agree where cells touch, whatever their
+/// orientation.
 
 #include <array>
 #include <compare>
@@ -14,10 +15,10 @@
 
 namespace karcher {
 
-/// Identity of a Lagrange node, equal for spaces of different regions (and orders, where the places coincide) of one mesh: the vertices of the smallest
-/// entity that holds it, ascending, and its place there in twelfths, in a canonical orientation of the entity. On simplices: the barycentric coordinates
-/// of the second, third, ... vertex in ascending order. On quadrilaterals and hexahedra: the distances from the vertex of lowest number along the
-/// edges to its neighbours, these in ascending order.
+/// Identity of a Lagrange node, equal for spaces of different regions (and orders, where the places coincide) of one mesh: the vertices of the
+/// smallest entity that holds it, ascending, and its place there in twelfths, in a canonical orientation of the entity. On simplices: the
+/// barycentric coordinates of the second, third, ... vertex in ascending order. On quadrilaterals and hexahedra: the distances from the vertex of
+/// lowest number along the edges to its neighbours, these in ascending order.
 struct NodeKey {
   static constexpr int denominator = 12;
   std::array<int, 8> vertices{-1, -1, -1, -1, -1, -1, -1, -1};
@@ -25,7 +26,8 @@ struct NodeKey {
   auto operator<=>(const NodeKey&) const = default;
 };
 
-/// Keys of all points of the lattice of order q on a cell, in the order of lagrange_nodes (q = 1, 2, 3; also 4, 6 with face and cell interiors x fastest).
+/// Keys of all points of the lattice of order q on a cell, in the order of lagrange_nodes (q = 1, 2, 3; also 4, 6 with face and cell interiors x
+/// fastest).
 std::vector<NodeKey> lattice_keys(const Cell& cell, int q);
 
 /// Identity of a whole entity by its vertices (at most 8); its place is zero.

@@ -2,7 +2,8 @@
 /// \file
 /// Quadrature on reference cells, exact for polynomials of the given degree, positive weights, interior points.
 /// Lines, quadrilaterals, hexahedra: products of Gauss rules with ceil((d+1)/2) points per direction. Simplices: symmetric rules (degree 1: centroid;
-/// degree 2 on a triangle: (1/6,1/6), (2/3,1/6), (1/6,2/3)); beyond the highest symmetric rule conical products of Gauss-Jacobi rules.
+/// degree 2 on a triangle: (1/6,1/6), (2/3,1/6), (1/6,2/3); triangles to degree 14, tetrahedra to degree 8; beyond, conical products of Gauss-Jacobi
+/// rules).
 
 #include <vector>
 

@@ -2,10 +2,11 @@
 /// \file
 /// Reference cells and their Lagrange bases of order 1 to 3.
 ///
-/// Reference domains: line [0,1]; triangle {x, y >= 0, x + y <= 1}; quadrilateral [0,1]^2; tetrahedron; hexahedron [0,1]^3. Vertex order is that of VTK and
-/// Gmsh (quadrilateral counter-clockwise, hexahedron bottom then top). Nodes of order p are equispaced; their order is: vertices; interior nodes of edge 0
-/// from its first to its second vertex, edge 1, ...; interior nodes of face 0, ...; interior nodes of the cell. Several interior nodes of a face or cell are
-/// numbered with their first coordinate running fastest, in the face's own reference coordinates (its first vertex the origin, x towards its second).
+/// Reference domains: line [0,1]; triangle {x, y >= 0, x + y <= 1}; quadrilateral [0,1]^2; tetrahedron; hexahedron [0,1]^3. Vertex order is that of
+/// VTK and Gmsh (quadrilateral counter-clockwise, hexahedron bottom then top). Nodes of order p are equispaced; their order is: vertices; interior
+/// nodes of edge 0 from its first to its second vertex, edge 1, ...; interior nodes of face 0, ...; interior nodes of the cell. Several interior
+/// nodes of a face or cell are numbered with their first coordinate running fastest, in the face's own reference coordinates (its first vertex the
+/// origin, x towards its second).
 ///
 /// Edges: triangle 01 12 20; quadrilateral 01 12 23 30; tetrahedron 01 12 20 03 13 23; hexahedron 01 12 23 30, 45 56 67 74, 04 15 26 37.
 /// Faces, counter-clockwise seen from outside: tetrahedron 021 013 032 123; hexahedron 0321 4567 0154 2376 0473 1265.

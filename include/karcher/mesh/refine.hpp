@@ -22,8 +22,9 @@ struct Refinement {
   std::map<std::string, std::vector<Child>> children;
 };
 
-/// The mesh with all its regions, one level finer, of the same geometry order. New nodes lie on the parametrisation if there is one, else on the geometry of
-/// the coarse cell; the shape does not change then. Tetrahedra: the inner octahedron is cut along its shortest diagonal, which keeps angles bounded (Zhang 1995).
+/// The mesh with all its regions, one level finer, of the same geometry order. New nodes lie on the parametrisation if there is one, else on the
+/// geometry of the coarse cell; the shape does not change then. Tetrahedra: the inner octahedron is cut along its shortest diagonal, which keeps
+/// angles bounded (Zhang 1995).
 Refinement refine(const Mesh& mesh);
 
 /// Reference coordinates in the parent of the point xi of a child of the given kind.

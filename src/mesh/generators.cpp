@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "karcher/error.hpp"
 #include "karcher/text.hpp"
@@ -71,7 +73,7 @@ const std::vector<Generator>& table() {
           {"inner", "outer", "start", "end"}},
          shapes::annulus},
         {{"disc",
-          "Disc around the origin in the plane z = 0. Triangles: six sectors of n x n; quadrilaterals: a square of n x n and n rings of 4 n around "
+          "Disc around the origin in the plane z = 0.\nTriangles: six sectors of n x n; quadrilaterals: a square of n x n and n rings of 4 n around "
           "it.",
           {length("radius", "of the disc", 1), counts("n", {4}), choice("shape", "of the cells", {"triangle", "quadrilateral"})},
           {"boundary"}},
@@ -94,10 +96,10 @@ const std::vector<Generator>& table() {
           {"boundary"}},
          shapes::moebius},
         {{"klein-bottle",
-          "Immersed Klein bottle: a body on the plane z = 0, whose neck bends over as a handle towards +x, passes back through the body's wall and "
-          "opens into "
-          "the base from inside. Analytic; no principal curvature exceeds 12.88 / height, the neck's radius is 0.085 height, the body's 0.285 "
-          "height.",
+          "Immersed Klein bottle: a bottle whose neck turns back through its wall and opens into its base.\n"
+          "The base is on the plane z = 0, the handle bends towards +x. Analytic everywhere; no principal curvature exceeds 12.88 / height, the neck "
+          "has the "
+          "radius 0.085 height, the body 0.285 height.",
           {length("height", "from the base to the top of the handle", 1), counts("along the tube and across it", {48, 32}), surface_shape()},
           {}},
          shapes::bottle},
@@ -156,6 +158,10 @@ Arguments resolve(const GeneratorInfo& info, const GeneratorOptions& given) {
     }
   }
   if (all.numbers.at("order")[0] > 3) refuse("order is 1, 2 or 3.");
+  // Numbers of nodes must stay within an int, at 27 nodes per cell.
+  const std::vector<double>& cells = all.numbers.at("cells");
+  const double grid = cells.size() == 1 ? cells[0] * cells[0] : std::accumulate(cells.begin(), cells.end(), 1.0, std::multiplies<>());
+  if (grid > 2e7 && info.name != "interval") refuse("cells asks for more than 20 million cells.");
   return Arguments(std::move(all));
 }
 

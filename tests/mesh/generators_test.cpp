@@ -61,7 +61,8 @@ int components(const std::vector<Cell>& cells) {
   return static_cast<int>(roots.size());
 }
 
-/// Whether the cells of a surface can be turned so that neighbours run through their common edge in opposite directions: two-colouring of cells through edges.
+/// Whether the cells of a surface can be turned so that neighbours run through their common edge in opposite directions: a two-colouring of the cells
+/// through edges.
 bool orientable(const Mesh& mesh) {
   std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> through;  // edge -> (cell, direction)
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -313,6 +314,7 @@ TEST(Generators, RefuseWrongNumbers) {
   EXPECT_TRUE(contains(message({"box", {{"size", {1, 1}}}, {}}), "takes 3 numbers, not 2"));
   EXPECT_TRUE(contains(message({"box", {{"shape", {1}}}, {}}), "tetrahedron, hexahedron"));
   EXPECT_TRUE(contains(message({"torus", {{"tube", {1}}}, {}}), "less than radius"));
+  EXPECT_TRUE(contains(message({"box", {{"cells", {1e4, 1e4, 1e4}}}, {}}), "more than 20 million cells"));
   EXPECT_TRUE(contains(message({"cylinder", {{"angle", {7}}}, {}}), "at most 2 pi"));
 }
 

@@ -112,7 +112,8 @@ TEST(Gmsh, ReadsMixedKindsInOneMesh) {
 }
 
 TEST(Gmsh, ReadsFilesOfGmshItselfWithTheirGroups) {
-  // A box of 1 x 1 x 2; "solid" and "again" are its volume, "floor" z = 0, "ends" z = 0 and z = 2, "edge" an edge of length 1; the point's group has no name.
+  // A box of 1 x 1 x 2 (data/solid.geo); "solid" and "again" are its volume, "floor" z = 0, "ends" z = 0 and z = 2, "edge" an edge of length 1; the
+  // group of the point has no name.
   for (const char* file :
        {"tetrahedra_order2_msh41.msh", "tetrahedra_order3_msh22.msh", "hexahedra_order2_msh22_binary.msh", "hexahedra_order3_msh41_binary.msh"}) {
     SCOPED_TRACE(file);

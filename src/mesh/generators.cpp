@@ -114,7 +114,11 @@ const std::vector<Generator>& table() {
           {"inner", "outer", "start", "end"}},
          shapes::helicoid},
     };
-    for (Generator& g : list) g.info.arguments.push_back({"order", "1", "geometry order of the cells, 1 to 3", {1}, {}, 1, true, true});
+    for (Generator& g : list) {
+      g.info.arguments.push_back({"order", "1", "geometry order of the cells, 1 to 3", {1}, {}, 1, true, true});
+      auto& regions = g.info.regions;
+      if (!regions.empty() && regions.back() != "boundary") regions.push_back("boundary");
+    }
     return list;
   }();
   return all;

@@ -338,6 +338,7 @@ TEST(Generators, TableNamesEveryArgumentWithADefaultThatWorks) {
       arguments.insert(a.name);
     }
     EXPECT_TRUE(arguments.contains("cells") && arguments.contains("order")) << info.name;
+    EXPECT_EQ(make(info.name).regions.contains("boundary"), std::count(info.regions.begin(), info.regions.end(), "boundary") == 1) << info.name;
   }
   const std::set<std::string> contract = {"interval", "rectangle", "box",     "cylinder",     "annulus", "disc",
                                           "sphere",   "torus",     "moebius", "klein-bottle", "helicoid"};

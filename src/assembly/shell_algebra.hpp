@@ -32,6 +32,15 @@ void store(const T& x, double* p) {
     x.store(p);
   }
 }
+/// x, as a value in a register. Without this GCC reads a loaded number again in every multiplication that uses it, and the load ports become the limit.
+template <class T>
+T in_register(T x) {
+#if defined(__AVX512F__)
+  if constexpr (lanes<T> == 8) asm("" : "+v"(x.v));
+#endif
+  return x;
+}
+
 template <class T>
 Mat3<T> matrix(const T* a) {
   return {{a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8]}};
@@ -96,6 +105,82 @@ Mat3<T> hat_times(const Vec3<T>& k, const Mat3<T>& m) {
     r(2, j) = k[0] * m(1, j) - k[1] * m(0, j);
   }
   return r;
+}
+
+// Sums that are accumulated term by term, so that every product is one fused multiply-add.
+
+/// r += s m
+template <class T>
+void add_scaled(Mat3<T>& r, const T& s, const Mat3<T>& m) {
+  for (std::size_t k = 0; k < 9; ++k) r.e[k] += s * m.e[k];
+}
+template <class T>
+void subtract_scaled(Mat3<T>& r, const T& s, const Mat3<T>& m) {
+  for (std::size_t k = 0; k < 9; ++k) r.e[k] -= s * m.e[k];
+}
+/// r += a b
+template <class T>
+void add_product(Mat3<T>& r, const Mat3<T>& a, const Mat3<T>& b) {
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) r(i, j) += a(i, k) * b(k, j);
+}
+template <class T>
+void subtract_product(Mat3<T>& r, const Mat3<T>& a, const Mat3<T>& b) {
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) r(i, j) -= a(i, k) * b(k, j);
+}
+/// r += a b^T
+template <class T>
+void add_outer(Mat3<T>& r, const Vec3<T>& a, const Vec3<T>& b) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) r(i, j) += a[i] * b[j];
+}
+/// r += m [k]
+template <class T>
+void add_times_hat(Mat3<T>& r, const Mat3<T>& m, const Vec3<T>& k) {
+  for (int i = 0; i < 3; ++i) {
+    r(i, 0) += m(i, 1) * k[2];
+    r(i, 1) += m(i, 2) * k[0];
+    r(i, 2) += m(i, 0) * k[1];
+    r(i, 0) -= m(i, 2) * k[1];
+    r(i, 1) -= m(i, 0) * k[2];
+    r(i, 2) -= m(i, 1) * k[0];
+  }
+}
+template <class T>
+void subtract_times_hat(Mat3<T>& r, const Mat3<T>& m, const Vec3<T>& k) {
+  for (int i = 0; i < 3; ++i) {
+    r(i, 0) -= m(i, 1) * k[2];
+    r(i, 1) -= m(i, 2) * k[0];
+    r(i, 2) -= m(i, 0) * k[1];
+    r(i, 0) += m(i, 2) * k[1];
+    r(i, 1) += m(i, 0) * k[2];
+    r(i, 2) += m(i, 1) * k[0];
+  }
+}
+/// r += [k] m
+template <class T>
+void add_hat_times(Mat3<T>& r, const Vec3<T>& k, const Mat3<T>& m) {
+  for (int j = 0; j < 3; ++j) {
+    r(0, j) += k[1] * m(2, j);
+    r(1, j) += k[2] * m(0, j);
+    r(2, j) += k[0] * m(1, j);
+    r(0, j) -= k[2] * m(1, j);
+    r(1, j) -= k[0] * m(2, j);
+    r(2, j) -= k[1] * m(0, j);
+  }
+}
+/// r += [k]
+template <class T>
+void add_hat(Mat3<T>& r, const Vec3<T>& k) {
+  r(0, 1) -= k[2];
+  r(0, 2) += k[1];
+  r(1, 0) += k[2];
+  r(1, 2) -= k[0];
+  r(2, 0) -= k[1];
+  r(2, 1) += k[0];
 }
 
 }  // namespace karcher::shell

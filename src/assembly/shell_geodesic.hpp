@@ -12,28 +12,36 @@
 
 namespace karcher::shell {
 
-template <class T, int Nodes>
+template <class T>
 class GeodesicRule {
  public:
-  static constexpr int capacity = Nodes > 0 ? Nodes : max_nodes;
+  /// Numbers per node and per point of a chunk.
+  struct Nodes {
+    Quaternion<T> q[max_nodes];
+    Vec3<T> theta[max_nodes], phi[max_nodes], gradient[max_nodes];
+    std::array<T, 3> beta[max_nodes];
+    Sym3<T> block[max_nodes];
+    Quaternion<T> found[max_chunk];
+    T accuracy[max_chunk];
+  };
 
-  GeodesicRule(const Tables& tables, const double* q) : tables_(tables) {
+  GeodesicRule(Nodes& nodes, const Tables& tables, const double* q) : n_(nodes), tables_(tables) {
     Quaternion<T> middle{};
-    for (int i = 0; i < nodes(); ++i) {
-      for (int c = 0; c < 4; ++c) q_[i][c] = load<T>(q + (4 * i + c) * lanes<T>);
-      const auto flip = dot(q_[i], q_[0]) < T(0.0);
+    for (int i = 0; i < count(); ++i) {
+      for (int c = 0; c < 4; ++c) n_.q[i][c] = load<T>(q + (4 * i + c) * lanes<T>);
+      const auto flip = dot(n_.q[i], n_.q[0]) < T(0.0);
       for (int c = 0; c < 4; ++c) {
-        q_[i][c] = select(flip, -q_[i][c], q_[i][c]);
-        middle[c] += q_[i][c];
+        n_.q[i][c] = select(flip, -n_.q[i][c], n_.q[i][c]);
+        middle[c] += n_.q[i][c];
       }
-      gradient_[i] = Vec3<T>{};
-      block_[i] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
+      n_.gradient[i] = Vec3<T>{};
+      n_.block[i] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
     }
     // All rotations within 73 degrees of their plain mean: no need to look closer.
     T smallest(1.0);
     const T length2 = dot(middle, middle);
-    for (int i = 0; i < nodes(); ++i) {
-      const T cosine = dot(middle, q_[i]);
+    for (int i = 0; i < count(); ++i) {
+      const T cosine = dot(middle, n_.q[i]);
       smallest = min(smallest, select(cosine > T(0.0), cosine * cosine - T(0.64) * length2, T(-1.0)));
     }
     const auto close = smallest > T(0.0);
@@ -44,45 +52,45 @@ class GeodesicRule {
   Mat3<T> rotation;  ///< Q
   Vec3<T> rate[2];   ///< k_b in the body frame
 
-  /// Finds Q at the points first .. first + count - 1, all at once.
-  void solve(int first, int count) {
+  /// Finds Q at the points first .. first + size - 1, all at once.
+  void solve(int first, int size) {
     T step[max_chunk], accuracy[max_chunk];
-    for (int p = 0; p < count; ++p) {
-      const double* l = tables_.r_value.data() + (first + p) * nodes();
+    for (int p = 0; p < size; ++p) {
+      const double* l = tables_.r_value.data() + (first + p) * count();
       Quaternion<T> q{};
-      for (int i = 0; i < nodes(); ++i)
-        for (int c = 0; c < 4; ++c) q[c] += T(l[i]) * q_[i][c];
+      for (int i = 0; i < count(); ++i)
+        for (int c = 0; c < 4; ++c) q[c] += T(l[i]) * n_.q[i][c];
       const T scale = T(1.0) / sqrt(dot(q, q));
-      for (int c = 0; c < 4; ++c) found_[p][c] = scale * q[c];
+      for (int c = 0; c < 4; ++c) n_.found[p][c] = scale * q[c];
       step[p] = T(1.0);
     }
     for (int iteration = 0; iteration < 20; ++iteration) {
       T worst(0.0);
-      for (int p = 0; p < count; ++p) {
+      for (int p = 0; p < size; ++p) {
         const T last = step[p];
-        step[p] = newton_step(tables_.r_value.data() + (first + p) * nodes(), found_[p]);
+        step[p] = newton_step(tables_.r_value.data() + (first + p) * count(), n_.found[p]);
         // Steps shrink by step/last or faster, so that what remains is below step^2/last; all three are squared.
         accuracy[p] = step[p] * step[p] / max(last, T(1e-100));
         worst = max(worst, accuracy[p]);
       }
       if (all(worst < T(converged))) break;
     }
-    for (int p = 0; p < count; ++p) accuracy_[p] = accuracy[p];
+    for (int p = 0; p < size; ++p) n_.accuracy[p] = accuracy[p];
   }
 
   /// Goes to point number p of the chunk. \param lb  [node]: derivatives of the basis in the two principal directions
   void go_to(int p, const double* l, const T (*lb)[2]) {
-    auto ok = accuracy_[p] < T(converged);
+    auto ok = n_.accuracy[p] < T(converged);
     for (int attempt = 0; attempt < 2; ++attempt) {
-      rotation = rotation_matrix(found_[p]);
+      rotation = rotation_matrix(n_.found[p]);
       Sym3<T> g{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
       rate[0] = rate[1] = Vec3<T>{};
-      for (int i = 0; i < nodes(); ++i) {
-        const Vec3<T> t = logarithm(quaternion_product(conjugate(found_[p]), q_[i]));
-        theta_[i] = t;
+      for (int i = 0; i < count(); ++i) {
+        const Vec3<T> t = logarithm(quaternion_product(conjugate(n_.found[p]), n_.q[i]));
+        n_.theta[i] = t;
         const T tau = dot(t, t);
-        beta_[i] = beta_jet(tau);
-        add_symmetric_part(g, T(l[i]), t, tau, beta_[i][0]);
+        n_.beta[i] = beta_jet(tau);
+        add_symmetric_part(g, T(l[i]), t, tau, n_.beta[i][0]);
         for (int b = 0; b < 2; ++b) rate[b] += lb[i][b] * t;
       }
       const Sym3<T> c = cofactor(g);
@@ -113,32 +121,32 @@ class GeodesicRule {
     sg_.yy -= work;
     sg_.zz -= work;
     Vec3<T> right = f * moment;
-    for (int i = 0; i < nodes(); ++i) {
-      const Vec3<T>& t = theta_[i];
+    for (int i = 0; i < count(); ++i) {
+      const Vec3<T>& t = n_.theta[i];
       const Vec3<T> y = T(2.0) * times(sg_, t);
-      const T psi = T(0.5) * dot(t, y), factor = T(2.0) * beta_[i][1] * psi;
-      phi_[i] = lb[i][0] * mu_[0] + lb[i][1] * mu_[1] + T(l[i]) * (turn_ - beta_[i][0] * y - factor * t);
-      right -= jacobian_times(i, phi_[i]);
+      const T psi = T(0.5) * dot(t, y), factor = T(2.0) * n_.beta[i][1] * psi;
+      n_.phi[i] = lb[i][0] * mu_[0] + lb[i][1] * mu_[1] + T(l[i]) * (turn_ - n_.beta[i][0] * y - factor * t);
+      right -= jacobian_times(i, n_.phi[i]);
     }
     const Vec3<T> eta = times(inverse_, right);
-    for (int i = 0; i < nodes(); ++i) phi_[i] += T(l[i]) * eta;
+    for (int i = 0; i < count(); ++i) n_.phi[i] += T(l[i]) * eta;
   }
 
   /// Adds the point's share of the gradient to the nodes' sums.
   void add_gradient(const double*, const double*, const T (&)[2][2]) {
-    for (int i = 0; i < nodes(); ++i) gradient_[i] += transposed_jacobian_times(i, phi_[i]);
+    for (int i = 0; i < count(); ++i) n_.gradient[i] += transposed_jacobian_times(i, n_.phi[i]);
   }
   /// Gradient of node i after all points.
-  Vec3<T> gradient(int i) const { return gradient_[i]; }
+  Vec3<T> gradient(int i) const { return n_.gradient[i]; }
 
   /// Prepares `node`: writes the parts of the maps that do not need the sums over the nodes, and forms these sums.
   void linearize(const Mat3<T>& f, const double* ls, const T (*lb)[2], T (*a)[27], T (*b)[27]) {
     const Mat3<T> fk = transpose_times(f, full(inverse_));
     Mat3<T> u[2] = {}, v[2] = {}, ww{};
-    for (int i = 0; i < nodes(); ++i) {
+    for (int i = 0; i < count(); ++i) {
       const T l(ls[i]), l2 = T(2.0) * l;
-      const Vec3<T>& t = theta_[i];
-      const T tau = dot(t, t), b0 = beta_[i][0], b1 = beta_[i][1], b2 = beta_[i][2];
+      const Vec3<T>& t = n_.theta[i];
+      const T tau = dot(t, t), b0 = n_.beta[i][0], b1 = n_.beta[i][1], b2 = n_.beta[i][2];
       const Mat3<T> d = jacobian(i), dt = transpose(d);
       store(l * (fk * d), a[i]);
       // B(x) = beta ((theta.x) I + theta x^T - 2 x theta^T) + 2 beta' ((theta.x) theta - tau x) theta^T
@@ -174,17 +182,17 @@ class GeodesicRule {
       h(2, 1) -= s * sg_.yz;
       h(2, 2) -= s * sg_.zz + identity_part;
 
-      const Mat3<T> bp = bracket(phi_[i]), half = hat(T(0.5) * phi_[i]), e = bp + half, et = bp - half, dh = d * h;
+      const Mat3<T> bp = bracket(n_.phi[i]), half = hat(T(0.5) * n_.phi[i]), e = bp + half, et = bp - half, dh = d * h;
       ww += (dh + et) * dt;
       store(-transpose_times(f, (dh + T(0.5) * et) * d + T(0.5) * (d * transpose(e))), b[i]);
       const Sym3<T> own = symmetric_part((dt * h + e) * d);
-      block_[i].xx += own.xx;
-      block_[i].xy += own.xy;
-      block_[i].xz += own.xz;
-      block_[i].yy += own.yy;
-      block_[i].yz += own.yz;
-      block_[i].zz += own.zz;
-      gradient_[i] += dt * phi_[i];
+      n_.block[i].xx += own.xx;
+      n_.block[i].xy += own.xy;
+      n_.block[i].xz += own.xz;
+      n_.block[i].yy += own.yy;
+      n_.block[i].yz += own.yz;
+      n_.block[i].zz += own.zz;
+      n_.gradient[i] += dt * n_.phi[i];
     }
     for (int s = 0; s < 2; ++s) {
       u_[s] = fk * (u[s] * f);
@@ -204,13 +212,13 @@ class GeodesicRule {
       store(matrix(b + 9 * (s + 1)) + v_[s] * w, b + 9 * (s + 1));
     }
   }
-  Vec3<T> node_gradient(int i) const { return gradient_[i]; }
-  Sym3<T> node_block(int i) const { return block_[i]; }
+  Vec3<T> node_gradient(int i) const { return n_.gradient[i]; }
+  Sym3<T> node_block(int i) const { return n_.block[i]; }
 
  private:
   static constexpr double converged = 1e-31;  // squared angle that remains
 
-  int nodes() const { return Nodes > 0 ? Nodes : tables_.r_nodes; }
+  int count() const { return tables_.r_nodes; }
 
   /// Rotation vector of a unit quaternion.
   static Vec3<T> logarithm(const Quaternion<T>& p) {
@@ -230,20 +238,20 @@ class GeodesicRule {
   }
   /// D_i = (1 - beta tau) I + beta theta theta^T + 1/2 [theta]
   Mat3<T> jacobian(int i) const {
-    const Vec3<T>& t = theta_[i];
-    const T diagonal = T(1.0) - beta_[i][0] * dot(t, t);
-    Mat3<T> d = outer(beta_[i][0] * t, t) + hat(T(0.5) * t);
+    const Vec3<T>& t = n_.theta[i];
+    const T diagonal = T(1.0) - n_.beta[i][0] * dot(t, t);
+    Mat3<T> d = outer(n_.beta[i][0] * t, t) + hat(T(0.5) * t);
     for (int k = 0; k < 3; ++k) d(k, k) += diagonal;
     return d;
   }
   Vec3<T> jacobian_times(int i, const Vec3<T>& x) const {
-    const Vec3<T>& t = theta_[i];
-    const T b = beta_[i][0];
+    const Vec3<T>& t = n_.theta[i];
+    const T b = n_.beta[i][0];
     return (T(1.0) - b * dot(t, t)) * x + (b * dot(t, x)) * t + T(0.5) * cross(t, x);
   }
   Vec3<T> transposed_jacobian_times(int i, const Vec3<T>& x) const {
-    const Vec3<T>& t = theta_[i];
-    const T b = beta_[i][0];
+    const Vec3<T>& t = n_.theta[i];
+    const T b = n_.beta[i][0];
     return (T(1.0) - b * dot(t, t)) * x + (b * dot(t, x)) * t - T(0.5) * cross(t, x);
   }
 
@@ -251,8 +259,8 @@ class GeodesicRule {
   T newton_step(const double* l, Quaternion<T>& q) const {
     Sym3<T> g{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
     Vec3<T> sum{};
-    for (int i = 0; i < nodes(); ++i) {
-      const Vec3<T> t = logarithm(quaternion_product(conjugate(q), q_[i]));
+    for (int i = 0; i < count(); ++i) {
+      const Vec3<T> t = logarithm(quaternion_product(conjugate(q), n_.q[i]));
       const T tau = dot(t, t);
       const T beta = (((T(1.0 / 47900160) * tau + T(1.0 / 1209600)) * tau + T(1.0 / 30240)) * tau + T(1.0 / 720)) * tau + T(1.0 / 12);
       add_symmetric_part(g, T(l[i]), t, tau, beta);
@@ -267,8 +275,8 @@ class GeodesicRule {
   }
 
   void copy_lane(int k, Quaternion<double>* q) const {
-    for (int i = 0; i < nodes(); ++i)
-      for (int c = 0; c < 4; ++c) q[i][c] = lane(q_[i][c], k);
+    for (int i = 0; i < count(); ++i)
+      for (int c = 0; c < 4; ++c) q[i][c] = lane(n_.q[i][c], k);
   }
   /// Lanes whose rotations are so far apart that their mean may not be unique.
   [[gnu::noinline]] void check_spread(MaskOf<T> close) {
@@ -276,7 +284,7 @@ class GeodesicRule {
       if (lane_of(close, k)) continue;
       Quaternion<double> q[max_nodes];
       copy_lane(k, q);
-      if (!unique_mean(q, nodes())) set_lane(trouble, k, 1.0);
+      if (!unique_mean(q, count())) set_lane(trouble, k, 1.0);
     }
   }
   /// Second try for the lanes where Newton's method did not arrive.
@@ -285,18 +293,13 @@ class GeodesicRule {
       if (lane_of(ok, k)) continue;
       Quaternion<double> q[max_nodes], found;
       copy_lane(k, q);
-      if (!riemannian_mean(q, l, nodes(), found)) set_lane(trouble, k, 1.0);
-      for (int c = 0; c < 4; ++c) set_lane(found_[p][c], k, found[c]);
+      if (!riemannian_mean(q, l, count(), found)) set_lane(trouble, k, 1.0);
+      for (int c = 0; c < 4; ++c) set_lane(n_.found[p][c], k, found[c]);
     }
   }
 
+  Nodes& n_;
   const Tables& tables_;
-  Quaternion<T> q_[capacity];
-  Vec3<T> theta_[capacity], phi_[capacity], gradient_[capacity];
-  std::array<T, 3> beta_[capacity];
-  Sym3<T> block_[capacity];
-  Quaternion<T> found_[max_chunk];
-  T accuracy_[max_chunk];
   Sym3<T> inverse_, sg_, value_block_;  // G^-1
   Mat3<T> u_[2], v_[2];
   Vec3<T> mu_[2], turn_;

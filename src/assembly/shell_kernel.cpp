@@ -53,8 +53,8 @@ void store_form(double* point, int lane, const ShellForm<double>& form, double w
   for (double x : form.s) put(x);
 }
 
-Kernel kernel(Rule rule, Want want, int m_nodes, int r_nodes) {
-  return rule == Rule::projection ? projection_kernel(want, m_nodes, r_nodes) : geodesic_kernel(want, m_nodes, r_nodes);
+Kernel kernel(Rule rule, Want want) {
+  return rule == Rule::projection ? projection_kernel(want) : geodesic_kernel(want);
 }
 
 }  // namespace karcher::shell

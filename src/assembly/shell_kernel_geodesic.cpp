@@ -1,21 +1,19 @@
-#include "assembly/shell_geodesic.hpp"
 #include "assembly/shell_kernel_impl.hpp"
 #include "assembly/shell_kernel_table.hpp"
+#include "assembly/shell_geodesic.hpp"
 
 namespace karcher::shell {
 
-Kernel geodesic_kernel(Want want, int m_nodes, int r_nodes) {
-  const bool quadratic_triangle = m_nodes == 6 && r_nodes == 6;
+Kernel geodesic_kernel(Want want) {
   switch (want) {
     case Want::energy:
-      return evaluate_batch<NativeScalar, GeodesicRule, Want::energy, 0, 0>;
+      return evaluate_batch<NativeScalar, GeodesicRule, Want::energy>;
     case Want::gradient:
-      return evaluate_batch<NativeScalar, GeodesicRule, Want::gradient, 0, 0>;
+      return evaluate_batch<NativeScalar, GeodesicRule, Want::gradient>;
     case Want::hessian:
       break;
   }
-  return quadratic_triangle ? evaluate_batch<NativeScalar, GeodesicRule, Want::hessian, 6, 6>
-                            : evaluate_batch<NativeScalar, GeodesicRule, Want::hessian, 0, 0>;
+  return evaluate_batch<NativeScalar, GeodesicRule, Want::hessian>;
 }
 
 }  // namespace karcher::shell

@@ -139,27 +139,47 @@ void apply(const PointOperator<T>& o, const T* a, T* b) {
   for (int c = 0; c < 3; ++c) {
     const T w0 = a[c], w1 = a[3 + c], w2 = a[6 + c], k11 = a[9 + c], k21 = a[12 + c], k31 = a[15 + c], k12 = a[18 + c], k22 = a[21 + c],
             k32 = a[24 + c];
-    const auto row = [&](int r) { return o.wk[0][r] * k21 + o.wk[1][r] * k12 + o.wk[2][r] * k22 + o.wk[3][r] * k11; };
-    b[c] += o.ww.xx * w0 + o.ww.xy * w1 + o.ww.xz * w2 + row(0);
-    b[3 + c] += o.ww.xy * w0 + o.ww.yy * w1 + o.ww.yz * w2 + row(1);
-    b[6 + c] += o.ww.xz * w0 + o.ww.yz * w1 + o.ww.zz * w2 + row(2);
-    b[9 + c] += o.kk[4] * k22 + o.kk[5] * k11;
-    b[12 + c] += o.kk[0] * k21 + o.kk[1] * k12;
-    b[15 + c] += o.kk[6] * k31;
-    b[18 + c] += o.kk[1] * k21 + o.kk[2] * k12;
-    b[21 + c] += o.kk[3] * k22 + o.kk[4] * k11;
-    b[24 + c] += o.kk[7] * k32;
+    const auto add = [&](int row, const T& f, const T& x) { b[3 * row + c] += f * x; };
+    const Sym3<T>& s = o.ww;
+    const T ww[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+    for (int r = 0; r < 3; ++r) {
+      add(r, ww[r][0], w0);
+      add(r, ww[r][1], w1);
+      add(r, ww[r][2], w2);
+      add(r, o.wk[0][r], k21);
+      add(r, o.wk[1][r], k12);
+      add(r, o.wk[2][r], k22);
+      add(r, o.wk[3][r], k11);
+    }
+    add(3, o.kk[4], k22);
+    add(3, o.kk[5], k11);
+    add(4, o.kk[0], k21);
+    add(4, o.kk[1], k12);
+    add(5, o.kk[6], k31);
+    add(6, o.kk[1], k21);
+    add(6, o.kk[2], k12);
+    add(7, o.kk[3], k22);
+    add(7, o.kk[4], k11);
+    add(8, o.kk[7], k32);
   }
 }
 
 /// Change of the forces at d_a m under the variation a: 3 x 3 for each a.
 template <class T>
 void force(const PointOperator<T>& o, const T* a, T* h) {
+  T x[7][3];
+  constexpr int rows[7] = {0, 1, 2, 4, 6, 7, 3};  // w, K21, K12, K22, K11
+  for (int k = 0; k < 7; ++k)
+    for (int c = 0; c < 3; ++c) x[k][c] = a[3 * rows[k] + c];
   for (int d = 0; d < 2; ++d)
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        h[9 * d + 3 * r + c] = o.m_w[d][3 * r] * a[c] + o.m_w[d][3 * r + 1] * a[3 + c] + o.m_w[d][3 * r + 2] * a[6 + c] + o.m_k[d][0][r] * a[12 + c] +
-                               o.m_k[d][1][r] * a[18 + c] + o.m_k[d][2][r] * a[21 + c] + o.m_k[d][3][r] * a[9 + c];
+    for (int r = 0; r < 3; ++r) {
+      T sum[3];
+      for (int k = 0; k < 7; ++k) {
+        const T f = in_register(k < 3 ? o.m_w[d][3 * r + k] : o.m_k[d][k - 3][r]);
+        for (int c = 0; c < 3; ++c) sum[c] = k == 0 ? f * x[k][c] : sum[c] + f * x[k][c];
+      }
+      for (int c = 0; c < 3; ++c) h[9 * d + 3 * r + c] = sum[c];
+    }
 }
 
 /// Adds a_i^T w_j + w_i^T a_j for N consecutive nodes j, whose 9 x 3 matrices follow one another.
@@ -170,8 +190,13 @@ void rank_update(const T* ai, const T* wi, const T* aj, const T* wj, double* hes
     for (int c = 0; c < 3 * N; ++c) sum[r][c] = load<T>(hessian + (r * stride + c) * lanes<T>);
   for (int k = 0; k < 9; ++k)
     for (int n = 0; n < N; ++n)
-      for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) sum[r][3 * n + c] += ai[3 * k + r] * wj[27 * n + 3 * k + c] + wi[3 * k + r] * aj[27 * n + 3 * k + c];
+      for (int c = 0; c < 3; ++c) {
+        const T w = in_register(wj[27 * n + 3 * k + c]), a = in_register(aj[27 * n + 3 * k + c]);
+        for (int r = 0; r < 3; ++r) {
+          sum[r][3 * n + c] += ai[3 * k + r] * w;
+          sum[r][3 * n + c] += wi[3 * k + r] * a;
+        }
+      }
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3 * N; ++c) store(sum[r][c], hessian + (r * stride + c) * lanes<T>);
 }
@@ -198,13 +223,31 @@ void mixed_blocks(const double* dm, int nm, int count, const T* forces, int stri
     for (int k = 0; k < 9; ++k) sum[j][k] = fresh ? T(0.0) : load<T>(hessian + ((3 * j + k / 3) * n + k % 3) * lanes<T>);
   for (int p = 0; p < count; ++p, dm += 2 * nm, forces += stride)
     for (int d = 0; d < 2; ++d)
-      for (int k = 0; k < 9; ++k)
-        for (int j = 0; j < N; ++j) sum[j][k] += T(dm[2 * j + d]) * forces[9 * d + k];
+      for (int k = 0; k < 9; ++k) {
+        const T f = in_register(forces[9 * d + k]);
+        for (int j = 0; j < N; ++j) sum[j][k] += T(dm[2 * j + d]) * f;
+      }
   for (int j = 0; j < N; ++j)
     for (int k = 0; k < 9; ++k) store(sum[j][k], hessian + ((3 * j + k / 3) * n + k % 3) * lanes<T>);
 }
 
-/// Sums of the blocks of deformation node i with all nodes j >= i. \param blocks  [point][21], as deformation_block writes them
+/// Sums of the blocks of a deformation node i with N consecutive nodes j. \param half  [point][direction of j][9]: second derivatives contracted with node i
+template <class T, int N>
+void deformation_blocks(const double* dm, int nm, int count, const T (*half)[2][9], bool fresh, double* hessian, int n) {
+  T sum[N][9];
+  for (int j = 0; j < N; ++j)
+    for (int k = 0; k < 9; ++k) sum[j][k] = fresh ? T(0.0) : load<T>(hessian + ((k / 3) * n + 3 * j + k % 3) * lanes<T>);
+  for (int p = 0; p < count; ++p, dm += 2 * nm)
+    for (int d = 0; d < 2; ++d)
+      for (int k = 0; k < 9; ++k) {
+        const T x = in_register(half[p][d][k]);
+        for (int j = 0; j < N; ++j) sum[j][k] += T(dm[2 * j + d]) * x;
+      }
+  for (int j = 0; j < N; ++j)
+    for (int k = 0; k < 9; ++k) store(sum[j][k], hessian + ((k / 3) * n + 3 * j + k % 3) * lanes<T>);
+}
+
+/// The blocks of deformation node i with all nodes j >= i. \param blocks  [point][21], as deformation_block writes them
 template <class T>
 void deformation_row(const double* dm, int nm, int i, int count, const T (*blocks)[21], bool fresh, double* hessian, int n) {
   T half[max_chunk][2][9];
@@ -216,15 +259,10 @@ void deformation_row(const double* dm, int nm, int i, int count, const T (*block
       half[p][1][k] = d0 * blocks[p][12 + k] + d1 * blocks[p][6 + at[k]];
     }
   }
-  for (int j = i; j < nm; ++j) {
-    double* h = hessian + (3 * i * n + 3 * j) * lanes<T>;
-    T sum[9];
-    for (int k = 0; k < 9; ++k) sum[k] = fresh ? T(0.0) : load<T>(h + ((k / 3) * n + k % 3) * lanes<T>);
-    for (int p = 0; p < count; ++p)
-      for (int d = 0; d < 2; ++d)
-        for (int k = 0; k < 9; ++k) sum[k] += T(dm[2 * (p * nm + j) + d]) * half[p][d][k];
-    for (int k = 0; k < 9; ++k) store(sum[k], h + ((k / 3) * n + k % 3) * lanes<T>);
-  }
+  double* row = hessian + 3 * i * n * lanes<T>;
+  int j = i;
+  for (; j + 3 <= nm; j += 3) deformation_blocks<T, 3>(dm + 2 * j, nm, count, half, fresh, row + 3 * j * lanes<T>, n);
+  for (; j < nm; ++j) deformation_blocks<T, 1>(dm + 2 * j, nm, count, half, fresh, row + 3 * j * lanes<T>, n);
 }
 
 /// Marks what failed: trouble of the interpolation, or results that are not finite.
@@ -248,19 +286,30 @@ void report(const T& energy, const T& trouble, int gradient_size, int hessian_si
   }
 }
 
-template <class T, template <class, int> class RotationRule, Want want, int FixedM, int FixedR>
+/// What is too large for the stack frame.
+template <class T, class Nodes>
+struct Workspace {
+  Nodes nodes;
+  T lb[max_nodes][2];
+  T a[max_nodes][27], b[max_nodes][27];
+  T forces[max_chunk * max_nodes][18];  // [point * nodes + node]
+  T blocks[max_chunk][21];
+
+  static Workspace& get() {
+    alignas(64) static thread_local Workspace workspace;
+    return workspace;
+  }
+};
+
+template <class T, template <class> class RotationRule, Want want>
 [[gnu::flatten]] void evaluate_batch(const Tables& tables, const double* points, const double* m, const double* q, const Output& out) {
   constexpr int W = lanes<T>;
-  constexpr int capacity_r = FixedR > 0 ? FixedR : max_nodes;
   constexpr bool hessian_wanted = want == Want::hessian, gradient_wanted = want != Want::energy;
-  const int nm = FixedM > 0 ? FixedM : tables.m_nodes, nr = FixedR > 0 ? FixedR : tables.r_nodes, n = 3 * (nm + nr);
+  const int nm = tables.m_nodes, nr = tables.r_nodes, n = 3 * (nm + nr);
 
-  RotationRule<T, FixedR> rule(tables, q);
+  auto& [nodes, lb, a, b, forces, blocks] = Workspace<T, typename RotationRule<T>::Nodes>::get();
+  RotationRule<T> rule(nodes, tables, q);
   T energy(0.0);
-  T a[hessian_wanted ? capacity_r : 1][27], b[hessian_wanted ? capacity_r : 1][27];
-  T forces[hessian_wanted ? max_chunk : 1][hessian_wanted ? capacity_r : 1][18];
-  T blocks[hessian_wanted ? max_chunk : 1][21];
-  T lb[capacity_r][2];
 
   const auto at = [&](int r, int c) { return out.hessian + (r * n + c) * W; };
   if constexpr (gradient_wanted)
@@ -325,7 +374,7 @@ template <class T, template <class, int> class RotationRule, Want want, int Fixe
         deformation_block(blocks[p], c, qf, j);
         for (int i = 0; i < nr; ++i) {
           rule.node(i, l, lb, a[i], b[i]);
-          force(o, a[i], forces[p][i]);
+          force(o, a[i], forces[p * nr + i]);
           apply(o, a[i], b[i]);
         }
         const int r0 = 3 * nm;
@@ -342,8 +391,8 @@ template <class T, template <class, int> class RotationRule, Want want, int Fixe
       const bool fresh = chunk == 0;
       for (int i = 0; i < nr; ++i) {
         int k = 0;
-        for (; k + 3 <= nm; k += 3) mixed_blocks<T, 3>(dm + 2 * k, nm, count, forces[0][i], capacity_r * 18, fresh, at(3 * k, 3 * (nm + i)), n);
-        for (; k < nm; ++k) mixed_blocks<T, 1>(dm + 2 * k, nm, count, forces[0][i], capacity_r * 18, fresh, at(3 * k, 3 * (nm + i)), n);
+        for (; k + 3 <= nm; k += 3) mixed_blocks<T, 3>(dm + 2 * k, nm, count, forces[i], 18 * nr, fresh, at(3 * k, 3 * (nm + i)), n);
+        for (; k < nm; ++k) mixed_blocks<T, 1>(dm + 2 * k, nm, count, forces[i], 18 * nr, fresh, at(3 * k, 3 * (nm + i)), n);
       }
       for (int i = 0; i < nm; ++i) deformation_row<T>(dm, nm, i, count, blocks, fresh, out.hessian, n);
     }

@@ -4,18 +4,16 @@
 
 namespace karcher::shell {
 
-Kernel projection_kernel(Want want, int m_nodes, int r_nodes) {
-  const bool quadratic_triangle = m_nodes == 6 && r_nodes == 6;
+Kernel projection_kernel(Want want) {
   switch (want) {
     case Want::energy:
-      return evaluate_batch<NativeScalar, ProjectionRule, Want::energy, 0, 0>;
+      return evaluate_batch<NativeScalar, ProjectionRule, Want::energy>;
     case Want::gradient:
-      return evaluate_batch<NativeScalar, ProjectionRule, Want::gradient, 0, 0>;
+      return evaluate_batch<NativeScalar, ProjectionRule, Want::gradient>;
     case Want::hessian:
       break;
   }
-  return quadratic_triangle ? evaluate_batch<NativeScalar, ProjectionRule, Want::hessian, 6, 6>
-                            : evaluate_batch<NativeScalar, ProjectionRule, Want::hessian, 0, 0>;
+  return evaluate_batch<NativeScalar, ProjectionRule, Want::hessian>;
 }
 
 }  // namespace karcher::shell

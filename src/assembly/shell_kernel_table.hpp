@@ -6,7 +6,7 @@
 
 namespace karcher::shell {
 
-Kernel projection_kernel(Want want, int m_nodes, int r_nodes);
-Kernel geodesic_kernel(Want want, int m_nodes, int r_nodes);
+Kernel projection_kernel(Want want);
+Kernel geodesic_kernel(Want want);
 
 }  // namespace karcher::shell

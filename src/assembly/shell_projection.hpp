@@ -13,19 +13,26 @@
 
 namespace karcher::shell {
 
-template <class T, int Nodes>
+template <class T>
 class ProjectionRule {
  public:
-  static constexpr int capacity = Nodes > 0 ? Nodes : max_nodes;
+  /// Numbers per node and per point of a chunk.
+  struct Nodes {
+    Quaternion<T> q[max_nodes];
+    T r[max_nodes][9], sum[max_nodes][9];
+    T a[max_chunk][9];
+    Quaternion<T> found[max_chunk];
+    T converged[max_chunk];
+  };
 
-  ProjectionRule(const Tables& tables, const double* q) : tables_(tables) {
-    for (int i = 0; i < nodes(); ++i) {
-      for (int c = 0; c < 4; ++c) q_[i][c] = load<T>(q + (4 * i + c) * lanes<T>);
-      const auto flip = dot(q_[i], q_[0]) < T(0.0);
-      for (int c = 0; c < 4; ++c) q_[i][c] = select(flip, -q_[i][c], q_[i][c]);
-      const Mat3<T> r = rotation_matrix(q_[i]);
-      for (int k = 0; k < 9; ++k) r_[i][k] = r.e[static_cast<std::size_t>(k)];
-      for (int k = 0; k < 9; ++k) sum_[i][k] = T(0.0);
+  ProjectionRule(Nodes& nodes, const Tables& tables, const double* q) : n_(nodes), tables_(tables) {
+    for (int i = 0; i < count(); ++i) {
+      for (int c = 0; c < 4; ++c) n_.q[i][c] = load<T>(q + (4 * i + c) * lanes<T>);
+      const auto flip = dot(n_.q[i], n_.q[0]) < T(0.0);
+      for (int c = 0; c < 4; ++c) n_.q[i][c] = select(flip, -n_.q[i][c], n_.q[i][c]);
+      const Mat3<T> r = rotation_matrix(n_.q[i]);
+      for (int k = 0; k < 9; ++k) n_.r[i][k] = r.e[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 9; ++k) n_.sum[i][k] = T(0.0);
     }
   }
 
@@ -33,44 +40,44 @@ class ProjectionRule {
   Mat3<T> rotation;  ///< Q
   Vec3<T> rate[2];   ///< k_b in the body frame
 
-  /// Finds Q at the points first .. first + count - 1, all at once, since each is a long chain of dependent operations.
-  void solve(int first, int count) {
-    T a[max_chunk][9], step[max_chunk];
-    for (int p = 0; p < count; ++p) {
-      const double* l = tables_.r_value.data() + (first + p) * nodes();
+  /// Finds Q at the points first .. first + size - 1, all at once, since each is a long chain of dependent operations.
+  void solve(int first, int size) {
+    T step[max_chunk];
+    for (int p = 0; p < size; ++p) {
+      const double* l = tables_.r_value.data() + (first + p) * count();
       Quaternion<T> q{};
-      for (int k = 0; k < 9; ++k) a[p][k] = T(0.0);
-      for (int i = 0; i < nodes(); ++i) {
-        for (int k = 0; k < 9; ++k) a[p][k] += T(l[i]) * r_[i][k];
-        for (int c = 0; c < 4; ++c) q[c] += T(l[i]) * q_[i][c];
+      for (int k = 0; k < 9; ++k) n_.a[p][k] = T(0.0);
+      for (int i = 0; i < count(); ++i) {
+        for (int k = 0; k < 9; ++k) n_.a[p][k] += T(l[i]) * n_.r[i][k];
+        for (int c = 0; c < 4; ++c) q[c] += T(l[i]) * n_.q[i][c];
       }
       const T scale = T(1.0) / sqrt(dot(q, q));
-      for (int c = 0; c < 4; ++c) found_[p][c] = scale * q[c];
+      for (int c = 0; c < 4; ++c) n_.found[p][c] = scale * q[c];
     }
     for (int iteration = 0; iteration < 12; ++iteration) {
       T largest(0.0);
-      for (int p = 0; p < count; ++p) {
-        step[p] = newton_step(a[p], found_[p]);
+      for (int p = 0; p < size; ++p) {
+        step[p] = newton_step(n_.a[p], n_.found[p]);
         largest = max(largest, step[p]);
       }
       if (all(largest < T(converged))) break;
     }
-    for (int p = 0; p < count; ++p) converged_[p] = step[p];
+    for (int p = 0; p < size; ++p) n_.converged[p] = step[p];
   }
 
   /// Goes to point number p of the chunk. \param lb  [node]: derivatives of the basis in the two principal directions
   void go_to(int p, const double* l, const T (*lb)[2]) {
-    Mat3<T> a{}, a1{}, a2{};
-    for (int i = 0; i < nodes(); ++i)
+    const Mat3<T> a = matrix(n_.a[p]);
+    Mat3<T> a1{}, a2{};
+    for (int i = 0; i < count(); ++i)
       for (int k = 0; k < 9; ++k) {
         const auto e = static_cast<std::size_t>(k);
-        a.e[e] += T(l[i]) * r_[i][k];
-        a1.e[e] += lb[i][0] * r_[i][k];
-        a2.e[e] += lb[i][1] * r_[i][k];
+        a1.e[e] += lb[i][0] * n_.r[i][k];
+        a2.e[e] += lb[i][1] * n_.r[i][k];
       }
-    auto ok = converged_[p] < T(converged);
+    auto ok = n_.converged[p] < T(converged);
     for (int attempt = 0; attempt < 2; ++attempt) {
-      rotation = rotation_matrix(found_[p]);
+      rotation = rotation_matrix(n_.found[p]);
       s_ = symmetric_part(transpose_times(rotation, a));
       const Sym3<T> g{s_.yy + s_.zz, -s_.xy, -s_.xz, s_.xx + s_.zz, -s_.yz, s_.xx + s_.yy};
       const Sym3<T> c = cofactor(g);
@@ -112,14 +119,16 @@ class ProjectionRule {
     // <N_i, Z_i [v]> = v . Ax(R_i^T (Q N_i)): the product with R_i^T waits until the sum over the points is known.
     const Mat3<T> x0 = rotation * n0_, x1 = rotation * hat(jacobian[0][0] * mu_[0] + jacobian[0][1] * mu_[1]),
                   x2 = rotation * hat(jacobian[1][0] * mu_[0] + jacobian[1][1] * mu_[1]);
-    for (int i = 0; i < nodes(); ++i)
+    for (int i = 0; i < count(); ++i)
       for (int k = 0; k < 9; ++k) {
         const auto e = static_cast<std::size_t>(k);
-        sum_[i][k] += T(l[i]) * x0.e[e] + T(dl[2 * i]) * x1.e[e] + T(dl[2 * i + 1]) * x2.e[e];
+        n_.sum[i][k] += T(l[i]) * x0.e[e];
+        n_.sum[i][k] += T(dl[2 * i]) * x1.e[e];
+        n_.sum[i][k] += T(dl[2 * i + 1]) * x2.e[e];
       }
   }
   /// Gradient of node i, after all points, where add_gradient was used.
-  Vec3<T> gradient(int i) const { return ax(transpose_times(matrix(r_[i]), matrix(sum_[i]))); }
+  Vec3<T> gradient(int i) const { return ax(transpose_times(matrix(n_.r[i]), matrix(n_.sum[i]))); }
 
   /// Prepares `node`.
   void linearize(const Mat3<T>& f, const double*, const T (*)[2], T (*)[27], T (*)[27]) {
@@ -152,35 +161,43 @@ class ProjectionRule {
   /// Maps of node i: `a` holds w, k_1', k_2' (3 x 3 each) per v_i, `b` holds -T_i, c_1, c_2; rows in the principal frame.
   void node(int i, const double* ls, const T (*lb)[2], T* a, T* b) {
     const T l(ls[i]);
-    const Mat3<T> z = transpose_times(rotation, matrix(r_[i]));
-    const Mat3<T> n = l * n0_ + hat(lb[i][0] * mu_[0] + lb[i][1] * mu_[1]);
+    const Mat3<T> z = transpose_times(rotation, matrix(n_.r[i]));
+    Mat3<T> n = l * n0_;
+    add_hat(n, lb[i][0] * mu_[0] + lb[i][1] * mu_[1]);
     Mat3<T> p = transpose_times(z, n);
-    for (int k = 0; k < 9; ++k) sum_[i][k] += p.e[static_cast<std::size_t>(k)];
+    for (int k = 0; k < 9; ++k) n_.sum[i][k] += p.e[static_cast<std::size_t>(k)];
     const T tp = trace(p);
     for (int k = 0; k < 3; ++k) p(k, k) -= tp;
 
     const Mat3<T> fz = transpose_times(f_, z);
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) b[3 * r + c] = -(fz(r, 0) * p(c, 0) + fz(r, 1) * p(c, 1) + fz(r, 2) * p(c, 2));
+      for (int c = 0; c < 3; ++c) b[3 * r + c] = -(fz(r, 0) * p(c, 0)) - fz(r, 1) * p(c, 1) - fz(r, 2) * p(c, 2);
 
-    const Vec3<T> g = ax(z), lg = l * g;
+    const Vec3<T> lg = l * ax(z);
     const T tz = trace(z), ltz = l * tz;
     Mat3<T> d = -transpose(z);
     for (int k = 0; k < 3; ++k) d(k, k) += tz;
     const Mat3<T> y = fk_ * d, w = l * y;
     store(w, a);
     for (int s = 0; s < 2; ++s) {
-      const Mat3<T> c = outer(fmu_[s], lg) - times_hat(fz, l * mu_[s]) + hat_times(fsmu_[s], w);
+      Mat3<T> c = outer(fmu_[s], lg);
+      subtract_times_hat(c, fz, l * mu_[s]);
+      add_hat_times(c, fsmu_[s], w);
       store(c, b + 9 * (s + 1));
-      const T gk = dot(lg, rate[s]);
-      const Mat3<T> k = lb[i][s] * y + times_hat(w, rate[s]) - v_[s] * w + gk * fk_ - ltz * fkk_[s];
+    }
+    for (int s = 0; s < 2; ++s) {
+      Mat3<T> k = lb[i][s] * y;
+      add_times_hat(k, w, rate[s]);
+      subtract_product(k, v_[s], w);
+      add_scaled(k, dot(lg, rate[s]), fk_);
+      subtract_scaled(k, ltz, fkk_[s]);
       store(k, a + 9 * (s + 1));
     }
   }
   /// Gradient of node i, and sym P_i - tr(P_i) I, after all points, where `node` was used.
-  Vec3<T> node_gradient(int i) const { return ax(matrix(sum_[i])); }
+  Vec3<T> node_gradient(int i) const { return ax(matrix(n_.sum[i])); }
   Sym3<T> node_block(int i) const {
-    const Sym3<T> s = symmetric_part(matrix(sum_[i]));
+    const Sym3<T> s = symmetric_part(matrix(n_.sum[i]));
     const T t = s.xx + s.yy + s.zz;
     return {s.xx - t, s.xy, s.xz, s.yy - t, s.yz, s.zz - t};
   }
@@ -189,7 +206,7 @@ class ProjectionRule {
   // The last step before the convergence is cubic (quadratic far away), so that what remains after a step of 1e-7 is below rounding.
   static constexpr double converged = 1e-14;
 
-  int nodes() const { return Nodes > 0 ? Nodes : tables_.r_nodes; }
+  int count() const { return tables_.r_nodes; }
 
   /// One Newton step for the maximum of tr(Q^T A); returns the square of its angle.
   static T newton_step(const T (&a)[9], Quaternion<T>& q) {
@@ -208,18 +225,15 @@ class ProjectionRule {
     for (int k = 0; k < lanes<T>; ++k) {
       if (lane_of(ok, k)) continue;
       Quaternion<double> q[max_nodes], found;
-      for (int i = 0; i < nodes(); ++i)
-        for (int c = 0; c < 4; ++c) q[i][c] = lane(q_[i][c], k);
-      if (!closest_rotation(q, l, nodes(), found)) set_lane(trouble, k, 1.0);
-      for (int c = 0; c < 4; ++c) set_lane(found_[p][c], k, found[c]);
+      for (int i = 0; i < count(); ++i)
+        for (int c = 0; c < 4; ++c) q[i][c] = lane(n_.q[i][c], k);
+      if (!closest_rotation(q, l, count(), found)) set_lane(trouble, k, 1.0);
+      for (int c = 0; c < 4; ++c) set_lane(n_.found[p][c], k, found[c]);
     }
   }
 
+  Nodes& n_;
   const Tables& tables_;
-  Quaternion<T> q_[capacity];
-  T r_[capacity][9], sum_[capacity][9];
-  Quaternion<T> found_[max_chunk];
-  T converged_[max_chunk];
   Sym3<T> s_, inverse_;  // S and G^-1
   Mat3<T> b_[2], n0_, f_, fk_, v_[2], fkk_[2];
   Vec3<T> mu_[2], eta_, sk_[2], fmu_[2], fsmu_[2];

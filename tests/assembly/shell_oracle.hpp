@@ -353,7 +353,7 @@ inline BatchResult evaluate(const Element& like, const Lanes& lanes, Want want) 
   const auto n = static_cast<std::size_t>(like.unknowns());
   out.gradient.resize(n * native_width);
   out.hessian.resize(n * n * native_width);
-  shell::kernel(like.rule, want, like.tables.m_nodes, like.tables.r_nodes)(
+  shell::kernel(like.rule, want)(
       like.tables, lanes.points.data(), lanes.m.data(), lanes.q.data(),
       {out.energy.data(), out.trouble.data(), out.gradient.data(), out.hessian.data()});
   return out;

@@ -46,7 +46,7 @@ struct Output {
 /// A lane whose interpolation is not defined or whose results are not finite has its trouble set and its energy infinite.
 using Kernel = void (*)(const Tables&, const double* points, const double* m, const double* q, const Output&);
 
-/// Runs for any node counts up to max_nodes; some counts have a copy of their own that the compiler could unroll.
-Kernel kernel(Rule rule, Want want, int m_nodes, int r_nodes);
+/// One for all node counts up to max_nodes: a copy for six and six nodes was not faster.
+Kernel kernel(Rule rule, Want want);
 
 }  // namespace karcher::shell

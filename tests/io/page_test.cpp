@@ -1,0 +1,497 @@
+#include "karcher/io/page.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "io/page_data.hpp"
+#include "io/page_shape.hpp"
+#include "io/page_store.hpp"
+#include "io/temporary_directory.hpp"
+#include "karcher/error.hpp"
+#include "karcher/io/atomic_file.hpp"
+#include "karcher/io/view.hpp"
+#include "karcher/mesh/generators.hpp"
+
+namespace karcher {
+namespace {
+
+using nlohmann::json;
+
+/// What a browser reads out of a page, after the description in page_data.hpp.
+struct ReadPage {
+  std::string html;
+  json header;
+  std::string bytes;
+
+  std::vector<double> array(int index) const {
+    const json& info = header.at("arrays").at(static_cast<std::size_t>(index));
+    const std::size_t n = info.at("count"), components = info.at("components"), offset = info.at("offset");
+    const std::string type = info.at("type");
+    const std::size_t width = type == "u16" ? 2 : 4;
+    std::vector<double> out(n * components);
+    for (std::size_t c = 0; c < components; ++c) {
+      std::uint32_t last = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        std::uint32_t w = 0;
+        for (std::size_t b = 0; b < width; ++b)
+          w |= std::uint32_t{static_cast<unsigned char>(bytes.at(offset + c * n * width + b * n + i))} << (8 * b);
+        double& v = out[i * components + c];
+        if (type == "f32") {
+          float f = 0;
+          std::memcpy(&f, &w, sizeof f);
+          v = f;
+          continue;
+        }
+        last += w & 1 ? ~(w >> 1) : w >> 1;
+        if (type == "u32") {
+          v = last;
+          continue;
+        }
+        last &= 0xffff;
+        const double low = info.at("low").at(c), high = info.at("high").at(c);
+        v = last == 65535 ? NAN : low + (high - low) * last / 65534;
+      }
+    }
+    return out;
+  }
+  const json& shape() const { return header.at("shape"); }
+  json field(const std::string& name) const {
+    for (const json& f : shape().at("fields"))
+      if (f.at("name") == name) return f;
+    throw std::runtime_error("no field " + name);
+  }
+};
+
+ReadPage unpacked(const std::string& text) {
+  std::string packed;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    const auto digit = std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
+    if (digit == std::string_view::npos) break;
+    bits = bits << 6 | static_cast<unsigned>(digit);
+    if ((held += 6) >= 8) packed += static_cast<char>(bits >> (held -= 8) & 255);
+  }
+  std::string plain(100 << 20, '\0');
+  uLongf size = plain.size();
+  if (uncompress(reinterpret_cast<Bytef*>(plain.data()), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK)
+    throw std::runtime_error("not a zlib stream");
+  if (plain.compare(0, 8, "KARCHER1") != 0) throw std::runtime_error("no magic word");
+  std::uint32_t length = 0;
+  std::memcpy(&length, plain.data() + 8, 4);
+  return {{}, json::parse(plain.substr(12, length)), plain.substr(12 + length, size - 12 - length)};
+}
+
+ReadPage read_page(const std::filesystem::path& directory) {
+  std::string html = read_whole(directory / "report.html");
+  const std::string begin = "<script id=\"karcher-data\" type=\"text/plain\">";
+  const std::size_t a = html.find(begin) + begin.size();
+  ReadPage page = unpacked(html.substr(a, html.find('<', a) - a));
+  page.html = std::move(html);
+  return page;
+}
+
+std::shared_ptr<const Mesh> generated(const std::string& name, std::map<std::string, std::vector<double>> numbers,
+                                      std::map<std::string, std::string> words = {}) {
+  return std::make_shared<const Mesh>(generate({name, std::move(numbers), std::move(words)}));
+}
+
+Field field_on(const std::shared_ptr<const Mesh>& mesh, const Region& region, const std::string& name, const std::string& manifold, int order) {
+  return {name, &manifold_by_name(manifold), Rule::projection, std::make_shared<const Space>(mesh, region, order)};
+}
+
+template <class F>
+std::vector<double> nodal(const Field& field, F f) {
+  std::vector<double> values;
+  for (int n = 0; n < field.space->node_count(); ++n) {
+    const std::vector<double> v = f(field.space->position(n));
+    values.insert(values.end(), v.begin(), v.end());
+  }
+  return values;
+}
+
+std::vector<double> identity(const Vec3<double>& x) { return {x[0], x[1], x[2]}; }
+
+Summary summary_of(const std::string& title) {
+  Summary s;
+  s.title = title;
+  s.version = "1.2.3";
+  s.status = Status::converged;
+  s.reason = "It converged.";
+  return s;
+}
+
+/// A store with the given states of a single deformation, without files.
+Store stored(const std::shared_ptr<const Mesh>& mesh, int order, const std::vector<std::function<std::vector<double>(const Vec3<double>&)>>& maps,
+             const std::filesystem::path& directory) {
+  OutputModel model;
+  model.fields = {field_on(mesh, mesh->region("all"), "m", "R3", order)};
+  model.deformation = 0;
+  PageStates states(directory, model);
+  const Output output(model);
+  int k = 0;
+  for (const auto& map : maps) {
+    states.write(k, k, output.sample({{nodal(model.fields[0], map)}, 0}));
+    ++k;
+  }
+  return read_store(directory / "report.data");
+}
+
+std::vector<int> all_states(const Store& store) {
+  std::vector<int> out;
+  for (std::size_t k = 0; k < store.states.size(); ++k) out.push_back(static_cast<int>(k));
+  return out;
+}
+
+std::vector<Vec3<double>> places(const PageShape& shape, const Store& store) {
+  std::vector<Vec3<double>> x(shape.vertices.size());
+  for (std::size_t v = 0; v < x.size(); ++v) shape.interpolate(v, store.parts.at(0).reference, 3, &x[v][0]);
+  return x;
+}
+
+double area(const PageShape& shape, const std::vector<Vec3<double>>& x) {
+  double sum = 0;
+  for (std::size_t t = 0; t < shape.triangle_facets.size(); ++t) {
+    const Vec3<double> n =
+        cross(x[shape.triangles[3 * t + 1]] - x[shape.triangles[3 * t]], x[shape.triangles[3 * t + 2]] - x[shape.triangles[3 * t]]);
+    sum += 0.5 * std::sqrt(dot(n, n));
+  }
+  return sum;
+}
+
+/// How many triangle edges belong to 1, 2, ... triangles.
+std::map<int, int> edge_uses(const PageShape& shape) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (std::size_t t = 0; t < shape.triangle_facets.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) ++uses[std::minmax(shape.triangles[3 * t + k], shape.triangles[3 * t + (k + 1) % 3])];
+  std::map<int, int> count;
+  for (const auto& [edge, n] : uses) ++count[n];
+  return count;
+}
+
+int euler_characteristic(const PageShape& shape) {
+  const std::set<std::uint32_t> used(shape.triangles.begin(), shape.triangles.end());
+  int edges = 0;
+  for (const auto& [n, count] : edge_uses(shape)) edges += count;
+  return static_cast<int>(used.size()) - edges + static_cast<int>(shape.triangle_facets.size());
+}
+
+TEST(PageArrays, NumbersComeBackWithinHalfAStepOfTheirRange) {
+  PageArrays arrays;
+  std::vector<float> values;
+  for (int i = 0; i < 1000; ++i) values.insert(values.end(), {static_cast<float>(std::sin(0.1 * i)), static_cast<float>(1e6 * i * i), -7.0F});
+  values[30] = NAN;
+  values[31] = INFINITY;
+  const std::vector<std::uint32_t> integers{5, 4, 4000000000U, 0, 1, 7};
+  const int a = arrays.add_quantised(values, 3), b = arrays.add_floats(values, 3), c = arrays.add_integers(integers, 2);
+  const ReadPage page = unpacked(arrays.packed({{"title", "x"}}));
+  const std::vector<double> q = page.array(a), f = page.array(b), n = page.array(c);
+  ASSERT_EQ(q.size(), values.size());
+  const double step[] = {2.0 / 65534, 1e6 * 999 * 999 / 65534, 0};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(std::isnan(q[i]), i == 30 || i == 31);
+    EXPECT_EQ(std::isnan(f[i]), i == 30);
+    if (std::isnan(q[i])) continue;
+    EXPECT_NEAR(q[i], values[i], 0.5001 * step[i % 3] + 1e-12);
+    EXPECT_EQ(f[i], static_cast<double>(values[i]));
+  }
+  EXPECT_EQ(f[31], INFINITY);
+  for (std::size_t i = 0; i < integers.size(); ++i) EXPECT_EQ(n[i], integers[i]);
+}
+
+TEST(PageShape, CutsOfACurvedClosedSurfaceFitTogetherAndHaveItsAreaAndTopology) {
+  const TemporaryDirectory directory;
+  // A bump that stretches a few elements: they are cut finer than the others, and still nothing gapes.
+  const auto bump = [](const Vec3<double>& x) {
+    const double h = 1 + 0.6 * std::exp(-20 * ((x[0] - 1) * (x[0] - 1) + x[1] * x[1] + x[2] * x[2]));
+    return std::vector<double>{h * x[0], h * x[1], h * x[2]};
+  };
+  const Store store = stored(generated("sphere", {{"cells", {4}}, {"order", {3}}}), 3, {identity, bump}, directory.path());
+  const PageShape shape = page_shape(store, all_states(store), 200000);
+  EXPECT_EQ(edge_uses(shape).size(), 1U);
+  EXPECT_GT(edge_uses(shape)[2], 0);
+  EXPECT_EQ(euler_characteristic(shape), 2);
+  const PageShape plain = page_shape(store, {0}, 200000);
+  EXPECT_GT(shape.triangle_facets.size(), plain.triangle_facets.size());
+  const std::vector<Vec3<double>> x = places(shape, store);
+  for (const Vec3<double>& p : x) EXPECT_NEAR(dot(p, p), 1, 2e-3);  // of cubic elements, not of their chords
+  EXPECT_NEAR(area(shape, x), 4 * std::numbers::pi, 0.005 * 4 * std::numbers::pi);
+  // Edges are polylines through vertices of the shape: no gap between an edge and the surface beside it.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
+  for (std::size_t t = 0; t < shape.triangle_facets.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) sides.insert(std::minmax(shape.triangles[3 * t + k], shape.triangles[3 * t + (k + 1) % 3]));
+  std::size_t at = 0;
+  for (const std::uint32_t length : shape.edge_lengths) {
+    for (std::size_t i = at + 1; i < at + length; ++i) EXPECT_TRUE(sides.count(std::minmax(shape.edges[i - 1], shape.edges[i])));
+    at += length;
+  }
+  EXPECT_EQ(shape.edge_lengths.size(), 30U * 16);  // an icosahedron with each edge cut into four
+  EXPECT_EQ(shape.strong_edges, 0);
+}
+
+TEST(PageShape, AKleinBottleStaysClosedAndOneSided) {
+  const TemporaryDirectory directory;
+  const Store store = stored(generated("klein-bottle", {{"cells", {12, 8}}, {"order", {2}}}), 2, {identity}, directory.path());
+  const PageShape shape = page_shape(store, {0}, 200000);
+  EXPECT_EQ(edge_uses(shape).size(), 1U);
+  EXPECT_EQ(edge_uses(shape).begin()->first, 2);
+  EXPECT_EQ(euler_characteristic(shape), 0);
+}
+
+TEST(PageShape, OfASolidTheBoundaryIsShownWithItsCreasesStrong) {
+  const TemporaryDirectory directory;
+  for (const char* kind : {"tetrahedron", "hexahedron"}) {
+    const Store store = stored(generated("box", {{"size", {4, 1, 2}}, {"cells", {4, 1, 2}}}, {{"shape", kind}}), 1, {identity}, directory.path());
+    const PageShape shape = page_shape(store, {0}, 200000);
+    EXPECT_NEAR(area(shape, places(shape, store)), 2 * (4 + 8 + 2), 1e-5);
+    EXPECT_EQ(edge_uses(shape).size(), 1U);
+    EXPECT_EQ(euler_characteristic(shape), 2);
+    EXPECT_EQ(shape.strong_edges, 4 * (4 + 1 + 2)) << kind;  // unit edges on the twelve edges of the box
+  }
+}
+
+TEST(PageShape, CurvesAreCutWhereTheyBend) {
+  const TemporaryDirectory directory;
+  const auto arc = [](const Vec3<double>& x) { return std::vector<double>{std::sin(x[0]), 0, 1 - std::cos(x[0])}; };
+  const auto mesh = generated("interval", {{"length", {2}}, {"cells", {5}}});
+  const Store straight = stored(mesh, 1, {identity, arc}, directory.path());
+  EXPECT_EQ(page_shape(straight, {0, 1}, 1000).curves.size(), 10U);
+  const Store bent = stored(mesh, 2, {identity, arc}, directory.path());
+  const PageShape shape = page_shape(bent, {0, 1}, 1000);
+  EXPECT_GT(shape.curves.size(), 15U);
+  EXPECT_EQ(shape.vertices.size(), shape.curves.size() - 4);  // neighbours share their ends
+}
+
+TEST(PageShape, AFilmTakesThePlaceOfTheFacesItLiesOn) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("box", {{"size", {2, 1, 1}}, {"cells", {4, 2, 2}}}, {{"shape", "hexahedron"}});
+  OutputModel model;
+  model.fields = {field_on(mesh, mesh->region("all"), "m", "R3", 1), field_on(mesh, mesh->region("top"), "Q", "SO3", 1)};
+  model.deformation = 0;
+  PageStates states(directory.path(), model);
+  states.write(0, 0,
+               Output(model).sample({{nodal(model.fields[0], identity), nodal(model.fields[1],
+                                                                              [](const auto&) {
+                                                                                return std::vector<double>{1, 0, 0, 0};
+                                                                              })},
+                                     0}));
+  const Store store = read_store(directory / "report.data");
+  ASSERT_EQ(store.parts.size(), 2U);
+  const PageShape shape = page_shape(store, {0}, 200000);
+  EXPECT_EQ(shape.facets.size(), 2U * (8 + 8 + 4));
+  int film = 0;
+  for (const PageFacet& f : shape.facets) film += f.part == 1 && f.below_part == 0;
+  EXPECT_EQ(film, 8);
+}
+
+TEST(PageShape, MoreTrianglesThanAllowedAreThinnedAndSaidSo) {
+  const TemporaryDirectory directory;
+  const Store curved = stored(generated("sphere", {{"cells", {6}}, {"order", {2}}}), 2, {identity}, directory.path());
+  EXPECT_TRUE(page_shape(curved, {0}, 200000).note.empty());
+  const PageShape coarser = page_shape(curved, {0}, 1000);
+  EXPECT_LE(coarser.triangle_facets.size(), 1000U);
+  EXPECT_NE(coarser.note.find("at most 1 pieces"), std::string::npos) << coarser.note;
+  const PageShape merged = page_shape(curved, {0}, 300);
+  EXPECT_LE(merged.triangle_facets.size(), 300U);
+  EXPECT_GT(merged.triangle_facets.size(), 100U);
+  EXPECT_NE(merged.note.find("of 720 triangles"), std::string::npos) << merged.note;
+  EXPECT_NEAR(area(merged, places(merged, curved)), 4 * std::numbers::pi, 0.15 * 4 * std::numbers::pi);
+}
+
+TEST(Page, ATitleWithMarkupAndQuotesIsTextAndNothingElse) {
+  const TemporaryDirectory directory;
+  const std::string title = "A \"title\" </script><script>alert('x')</script> & more";
+  write_summary(directory / "summary.json", summary_of(title));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  EXPECT_EQ(page.header.at("title"), title);
+  EXPECT_EQ(page.header.at("result"), "It converged.");
+  EXPECT_FALSE(page.header.contains("shape"));
+  EXPECT_EQ(page.html.find("alert('x')</script>"), std::string::npos);
+  EXPECT_NE(page.html.find("<title>A \"title\" &lt;/script&gt;&lt;script&gt;alert('x')&lt;/script&gt; &amp; more</title>"), std::string::npos);
+  EXPECT_EQ(page.html.find("@KARCHER_"), std::string::npos);
+}
+
+TEST(Page, TheTemplateHoldsBothMarksOnce) {
+  const std::string page(page_template());
+  for (const std::string mark : {"@KARCHER_TITLE@", "@KARCHER_DATA@"}) {
+    ASSERT_NE(page.find(mark), std::string::npos);
+    EXPECT_EQ(page.find(mark), page.rfind(mark));
+  }
+}
+
+TEST(Page, ShowsDisplacementsAngleToTheNormalAndDirectors) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("cylinder", {{"radius", {1}}, {"height", {2}}, {"cells", {12, 4}}, {"order", {2}}});
+  OutputModel model;
+  model.fields = {field_on(mesh, mesh->region("all"), "m", "R3", 2), field_on(mesh, mesh->region("all"), "Q", "SO3", 2)};
+  model.deformation = 0;
+  model.terms = {"cosserat-shell"};
+  const Output output(model);
+  PageStates states(directory.path(), model);
+  const double angle = 0.7, c = std::cos(angle), s = std::sin(angle);
+  const auto turn = [&](const Vec3<double>& x) { return std::vector<double>{x[0], c * x[1] - s * x[2], s * x[1] + c * x[2]}; };
+  const auto turned = [&](const Vec3<double>&) { return std::vector<double>{std::cos(angle / 2), std::sin(angle / 2), 0, 0}; };
+  const auto unturned = [](const Vec3<double>&) { return std::vector<double>{1, 0, 0, 0}; };
+  states.write(0, 0, output.sample({{nodal(model.fields[0], identity), nodal(model.fields[1], unturned)}, 0}));
+  states.write(1, 1, output.sample({{nodal(model.fields[0], turn), nodal(model.fields[1], turned)}, 1}), {{"cosserat-shell", 0.0}});
+  states.write(2, 2, output.sample({{nodal(model.fields[0], turn), nodal(model.fields[1], unturned)}, 2}));
+  write_summary(directory / "summary.json", summary_of("turned"));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  EXPECT_EQ(page.shape().at("states").size(), 3U);
+  EXPECT_FALSE(page.shape().at("flat").get<bool>());
+  // A director that turns with the surface stays on its normal; one that does not is off by up to the angle.
+  const json normal = page.field("normal_angle");
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<double> v = page.array(normal.at("arrays").at(static_cast<std::size_t>(k)));
+    const double largest = *std::max_element(v.begin(), v.end());
+    EXPECT_NEAR(largest, k < 2 ? 0 : angle * 180 / std::numbers::pi, 0.05) << k;
+  }
+  for (const double v : page.array(page.field("Q.angle").at("arrays").at(1))) EXPECT_NEAR(v, angle * 180 / std::numbers::pi, 1e-3);
+  // Displacement at the vertices: of |x| sqrt(2 - 2 cos) in the yz plane.
+  const std::vector<double> reference = page.array(page.shape().at("reference")), u = page.array(page.field("displacement").at("arrays").at(1));
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double r = std::hypot(reference[3 * i + 1], reference[3 * i + 2]);
+    EXPECT_NEAR(u[i], r * std::sqrt(2 - 2 * c), 1e-4);
+  }
+  const json glyphs = page.shape().at("glyphs").at(0);
+  EXPECT_EQ(glyphs.at("kind"), "frame");
+  const std::vector<double> q = page.array(glyphs.at("arrays").at(1));
+  EXPECT_NEAR(std::abs(q[0]), std::sin(angle / 2), 1e-4);  // x, y, z, w
+  EXPECT_NEAR(std::abs(q[3]), std::cos(angle / 2), 1e-4);
+}
+
+TEST(Page, ValuesThatAreNotNumbersAreCountedAndKept) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("rectangle", {{"size", {1, 1}}, {"cells", {3, 3}}}, {{"shape", "quadrilateral"}});
+  OutputModel model;
+  model.fields = {field_on(mesh, mesh->region("all"), "u", "S2", 1)};
+  model.terms = {"harmonic"};
+  std::vector<double> values = nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0, 0, 1}; });
+  values[3 * 5] = NAN;
+  std::vector<OutputPart> parts = Output(model).sample({{values}, 0});
+  OutputArray density{"energy_density.harmonic", 1, std::vector<double>(9, 2.0)};
+  density.values[4] = INFINITY;
+  parts.at(0).cell_data = {density};
+  PageStates states(directory.path(), model);
+  states.write(1, 1, parts);
+  write_summary(directory / "summary.json", summary_of("nan"));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  EXPECT_TRUE(page.shape().at("flat").get<bool>());
+  EXPECT_EQ(page.field("u").at("not_finite"), 1);
+  EXPECT_EQ(page.field("energy").at("not_finite"), 1);
+  const std::vector<double> e = page.array(page.field("energy").at("arrays").at(0));
+  EXPECT_EQ(std::count_if(e.begin(), e.end(), [](double v) { return std::isnan(v); }), 1);
+  EXPECT_EQ(e[0], 2);
+  EXPECT_EQ(page.shape().at("start").at("glyphs"), "u");
+}
+
+TEST(Page, MoreStatesThanAllowedAreThinnedKeepingFirstAndLast) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("interval", {{"cells", {2}}});
+  std::vector<std::function<std::vector<double>(const Vec3<double>&)>> maps(75, identity);
+  stored(mesh, 1, maps, directory.path());
+  write_summary(directory / "summary.json", summary_of("many"));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  const json& states = page.shape().at("states");
+  ASSERT_EQ(states.size(), 60U);
+  EXPECT_EQ(states.front().at("step"), 0);
+  EXPECT_EQ(states.back().at("step"), 74);
+  for (std::size_t k = 1; k < states.size(); ++k) EXPECT_LE(states[k].at("step").get<int>() - states[k - 1].at("step").get<int>(), 2);
+  EXPECT_EQ(page.header.at("notes").at(0), "The page shows 60 of 75 states.");
+}
+
+TEST(PageStates, ARecordCutOffByAKillIsLeftOutAndSaidSo) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("interval", {{"cells", {3}}});
+  stored(mesh, 1, {identity, identity, identity}, directory.path());
+  const std::string whole = read_whole(directory / "report.data");
+  write_summary(directory / "summary.json", summary_of("killed"));
+  write_atomically(directory / "report.data", std::string_view(whole).substr(0, whole.size() - 5));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  EXPECT_EQ(page.shape().at("states").size(), 2U);
+  EXPECT_NE(page.header.at("notes").dump().find("cut off"), std::string::npos);
+  std::string damaged = whole;
+  damaged[whole.size() - 8] = static_cast<char>(damaged[whole.size() - 8] + 1);
+  write_atomically(directory / "report.data", damaged);
+  EXPECT_EQ(read_store(directory / "report.data").states.size(), 2U);
+}
+
+TEST(PageStates, AResumedRunGoesOnAfterTheStatesItKeeps) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("interval", {{"cells", {3}}});
+  stored(mesh, 1, {identity, identity, identity, identity}, directory.path());
+  OutputModel model;
+  model.fields = {field_on(mesh, mesh->region("all"), "m", "R3", 1)};
+  model.deformation = 0;
+  PageStates states(directory.path(), model, 2);
+  EXPECT_EQ(read_store(directory / "report.data").states.size(), 2U);
+  states.write(2, 0.5, Output(model).sample({{nodal(model.fields[0], identity)}, 0}), {{"load", 1.5}});
+  const Store store = read_store(directory / "report.data");
+  ASSERT_EQ(store.states.size(), 3U);
+  EXPECT_EQ(store.states[2].t, 0.5);
+  EXPECT_EQ(store.states[2].energies.at(0).second, 1.5);
+  EXPECT_EQ(store.parts.size(), 1U);
+}
+
+TEST(Page, WithoutResultsOrWithForeignFilesItSaysWhatIsWrong) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(write_page(directory.path()), InputError);
+  ViewOptions nowhere;
+  nowhere.directory = directory / "nowhere";
+  EXPECT_THROW(view(nowhere), InputError);
+  write_summary(directory / "summary.json", summary_of("x"));
+  write_atomically(directory / "report.data", "something else");
+  EXPECT_THROW(write_page(directory.path()), InputError);
+  EXPECT_FALSE(std::filesystem::exists(directory / "report.html"));
+}
+
+TEST(View, WithoutABrowserItSaysWhatToInstall) {
+  const TemporaryDirectory directory;
+  write_summary(directory / "summary.json", summary_of("x"));
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", directory.path().c_str(), 1);
+  ::unsetenv("KARCHER_CHROMIUM");
+  ViewOptions options;
+  options.directory = directory.path();
+  options.png = directory / "x.png";
+  std::string words;
+  try {
+    view(options);
+  } catch (const InputError& error) {
+    words = error.what();
+  }
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(words.find("apt-get install chromium"), std::string::npos) << words;
+  EXPECT_TRUE(std::filesystem::exists(directory / "report.html"));
+  EXPECT_FALSE(std::filesystem::exists(directory / "x.png"));
+}
+
+TEST(View, ABrowserThatEndsAtOnceIsReported) {
+  const TemporaryDirectory directory;
+  write_summary(directory / "summary.json", summary_of("x"));
+  ::setenv("KARCHER_CHROMIUM", "/bin/false", 1);
+  ViewOptions options;
+  options.directory = directory.path();
+  options.png = directory / "x.png";
+  EXPECT_THROW(view(options), Error);
+  ::setenv("KARCHER_CHROMIUM", "/no/such/program", 1);
+  EXPECT_THROW(view(options), Error);
+  ::unsetenv("KARCHER_CHROMIUM");
+  EXPECT_FALSE(std::filesystem::exists(directory / "x.png"));
+}
+
+}  // namespace
+}  // namespace karcher

@@ -88,6 +88,76 @@ TEST(Spd, ObeysTheLawsWhereEigenvaluesMeet) {
   check(Spd<3>{});
 }
 
+TEST(Spd, LogAroundIsTheLogarithmInAMovedFrame) {
+  // theta(w, v) = 0 where p(v) = q(w); everywhere its length is the distance, with all derivatives up to the orders that a mean needs.
+  Random random(3);
+  using M = Spd<3>;
+  using J = Jet<double, 12>;
+  const auto check = [&](double r) {
+    const auto q = retract<M>(M::origin(), random.direction<6>()), p = retract<M>(q, r * random.direction<6>());
+    const auto e = M::frame(q), f = M::frame(p);
+    Vec<J, 6> w, v;
+    for (int i = 0; i < 6; ++i) {
+      w[i] = J::variable(0, i);
+      v[i] = J::variable(0, 6 + i);
+    }
+    const auto theta = M::LogAround<J, double>(q, e, w).theta(p, f, v);
+    const J squared = norm2(theta);
+    const auto a = M::exp(cast<J>(q), cast<J>(e) * w), b = M::exp(cast<J>(p), cast<J>(f) * v), log = M::log(a, b);
+    const J expected = M::inner(a, log, log);
+    EXPECT_NEAR(squared.v, expected.v, 1e-13);
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(squared.g[i], expected.g[i], 1e-12);
+    for (std::size_t i = 0; i < J::pairs; ++i) EXPECT_NEAR(squared.h[i], expected.h[i], 1e-11);
+  };
+  check(0);
+  check(1e-6);
+  check(0.3);
+  check(2);
+}
+
+TEST(Spd, LogAroundTakesLargePacksApartWithoutADifference) {
+  Random random(4);
+  using M = Spd<2>;
+  using P = Pack<8>;
+  const auto scaled_variable = [](auto one, int i) {
+    using S = decltype(one);
+    using J = std::decay_t<decltype(S{}.v)>;
+    S s = J::variable(Base<S>(0.0), i);
+    for (auto& d : s.d) d = J(0.3 + 0.1 * i);
+    return s;
+  };
+  using Large = Dual<Jet<P, 18>, 2>;
+  using One = Dual<Jet<double, 18>, 2>;
+  static_assert(sizeof(Large) > 8192);
+  Point<M, P> q, p;
+  std::array<Point<M>, 8> qs, ps;
+  for (int l = 0; l < 8; ++l) {
+    const auto i = static_cast<std::size_t>(l);
+    qs[i] = retract<M>(M::origin(), 0.7 * random.direction<3>());
+    ps[i] = retract<M>(qs[i], 0.2 * random.direction<3>());
+    set_lane(q, l, qs[i]);
+    set_lane(p, l, ps[i]);
+  }
+  Vec<Large, 3> w, v;
+  Vec<One, 3> w1, v1;
+  for (int i = 0; i < 3; ++i) {
+    w[i] = scaled_variable(Large{}, i);
+    v[i] = scaled_variable(Large{}, 3 + i);
+    w1[i] = scaled_variable(One{}, i);
+    v1[i] = scaled_variable(One{}, 3 + i);
+  }
+  const auto theta = M::LogAround<Large, P>(q, M::frame(q), w).theta(p, M::frame(p), v);
+  for (int l = 0; l < 8; ++l) {
+    const auto i = static_cast<std::size_t>(l);
+    const auto one = M::LogAround<One, double>(qs[i], M::frame(qs[i]), w1).theta(ps[i], M::frame(ps[i]), v1);
+    for (int c = 0; c < 3; ++c) {
+      const One x = lane(theta[c], l) - one[c];
+      EXPECT_NEAR(x.v.v, 0, 1e-14);
+      for (std::size_t h = 0; h < x.d[1].h.size(); ++h) EXPECT_NEAR(x.d[1].h[h], 0, 1e-12);
+    }
+  }
+}
+
 TEST(Spd, DefectTellsMatricesFromPoints) {
   EXPECT_EQ(Spd<2>::defect({{2, 1, 1, 2}}), 0);
   EXPECT_NEAR(Spd<2>::defect({{2, 1.1, 1, 2}}), 0.05, 1e-15);

@@ -45,8 +45,23 @@ struct ByExponential {
     Point<M, S> q_;
   };
 };
+struct LogFunction;
+namespace mean_detail {
+/// M::LogAround where a manifold has one (the same contract as Around, written by hand), else the general one.
+template <class M, class S, class T>
+struct LogAround {
+  using type = typename ByExponential<LogFunction>::template Around<M, S, T>;
+};
+template <class M, class S, class T>
+requires requires { typename M::template LogAround<S, T>; }
+struct LogAround<M, S, T> {
+  using type = typename M::template LogAround<S, T>;
+};
+}  // namespace mean_detail
 struct LogFunction : ByExponential<LogFunction> {
   static constexpr bool is_geodesic = true;
+  template <class M, class S, class T>
+  using Around = typename mean_detail::LogAround<M, S, T>::type;
   template <class M, class T>
   static Vec<T, M::ambient> at(const Point<M, T>& q, const Point<M, T>& p) {
     return M::log(q, p);

@@ -15,6 +15,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
+#include <vector>
 
 #include "karcher/manifold/manifold.hpp"
 #include "karcher/math/symmetric.hpp"
@@ -42,25 +44,17 @@ struct Spd {
   static Vec<double, N * N> origin() { return point(identity<double, N>()); }
   template <class T>
   static Vec<T, N * N> exp(const Vec<T, N * N>& p, const Vec<T, N * N>& a) {
+    if constexpr (one_by_one<T>) return lane_by_lane(p, a, [](const auto& x, const auto& y) { return exp(x, y); });
     const Mat<T, N, N> l = cholesky(matrix(p));
     return point(lower_congruence(l, symmetric_exp(lower_congruence(lower_inverse(l), matrix(a)))));
   }
   template <class T>
   static Vec<T, N * N> log(const Vec<T, N * N>& p, const Vec<T, N * N>& q) {
+    if constexpr (one_by_one<T>) return lane_by_lane(p, q, [](const auto& x, const auto& y) { return log(x, y); });
     const Mat<T, N, N> l = cholesky(matrix(p)), inverse = lower_inverse(l);
-    const Mat<T, N, N> difference = lower_congruence(inverse, matrix(q) - matrix(p));
-    // Near points by log(I + .), whose error is relative to their distance; far points by log, whose argument must not be a difference.
-    Base<T> size2 = Base<T>(0.0);
-    for (const T& x : difference.e) size2 += base(x) * base(x);
-    const auto near = size2 < Base<T>(0.25);
-    if (all(near)) return point(lower_congruence(l, symmetric_log1p(difference)));
-    const Mat<T, N, N> far_log = symmetric_log(lower_congruence(inverse, matrix(q)));
-    if (!any(near)) return point(lower_congruence(l, far_log));
-    Mat<T, N, N> harmless = difference;
-    for (T& x : harmless.e) x = select(near, x, T(0.0));
-    Mat<T, N, N> logarithm = symmetric_log1p(harmless);
-    for (std::size_t i = 0; i < logarithm.e.size(); ++i) logarithm.e[i] = select(near, logarithm.e[i], far_log.e[i]);
-    return point(lower_congruence(l, logarithm));
+    return point(lower_congruence(l, relative_log(lower_congruence(inverse, matrix(q) - matrix(p)), [&] {
+                                    return lower_congruence(symmetric_detail::plain(inverse), symmetric_detail::plain(matrix(q)));
+                                  })));
   }
   template <class T>
   static T inner(const Vec<T, N * N>& p, const Vec<T, N * N>& a, const Vec<T, N * N>& b) {
@@ -82,6 +76,110 @@ struct Spd {
           for (int c = i; c < N; ++c) e(r * N + c, k) = T(0.5 * std::numbers::sqrt2) * (l(r, i) * l(c, j) + l(r, j) * l(c, i));
     return e;
   }
+  /// The symmetric matrix with the coordinates v in the basis S_k.
+  template <class T>
+  static Mat<T, N, N> symmetric_matrix(const Vec<T, dim>& v) {
+    Mat<T, N, N> s;
+    int k = N;
+    for (int i = 0; i < N; ++i) s(i, i) = v[i];
+    for (int i = 0; i < N; ++i)
+      for (int j = i + 1; j < N; ++j, ++k) s(i, j) = s(j, i) = (0.5 * std::numbers::sqrt2) * v[k];
+    return s;
+  }
+  template <class T>
+  static Vec<T, dim> symmetric_coordinates(const Mat<T, N, N>& s) {
+    Vec<T, dim> v;
+    int k = N;
+    for (int i = 0; i < N; ++i) v[i] = s(i, i);
+    for (int i = 0; i < N; ++i)
+      for (int j = i + 1; j < N; ++j, ++k) v[k] = std::numbers::sqrt2 * s(i, j);
+    return v;
+  }
+
+ private:
+  /// Scalars of more than 8 kB leave the cache, and at length the stack, when some dozens of them are alive: such packs are taken apart.
+  template <class T>
+  static constexpr bool one_by_one = lanes<T> > 1 && sizeof(T) > 8192;
+
+  template <class S, class T>
+  class LogAroundAtOnce {
+   public:
+    /// q(w) = exp_q(E w) where E = frame(q); w without plain value.
+    LogAroundAtOnce(const Vec<T, N * N>& q, const Mat<T, N * N, dim>&, const Vec<S, dim>& w) : q_(matrix(q)), inverse_(lower_inverse(cholesky(q_))) {
+      const Mat<S, N, N> x = symmetric_matrix(w), x2 = x * x, x3 = x * x2;
+      half_ = identity<S, N>() + (-0.5) * x + 0.125 * x2 + (-1.0 / 48) * x3;
+      whole_ = (-1.0) * x + 0.5 * x2 + (-1.0 / 6) * x3;
+    }
+    /// log_q(w)(p)
+    Vec<S, dim> theta(const Vec<T, N * N>& p) const { return theta(p, cast<S>(lower_congruence(inverse_, matrix(p) - q_))); }
+    /// log_q(w)(exp_p(F v)) where F = frame(p); v without plain value.
+    Vec<S, dim> theta(const Vec<T, N * N>& p, const Mat<T, N * N, dim>&, const Vec<S, dim>& v) const {
+      const Mat<S, N, N> x = symmetric_matrix(v), x2 = x * x;
+      const Mat<S, N, N> change = x + 0.5 * x2 + (1.0 / 6) * (x * x2);
+      const Mat<T, N, N> m = inverse_ * cholesky(matrix(p));  // lower triangular
+      Mat<S, N, N> y = cast<S>(lower_congruence(inverse_, matrix(p) - q_)), mx;
+      for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j)
+          for (int k = 0; k <= i; ++k) mx(i, j) += symmetric_detail::scaled(change(k, j), m(i, k));
+      for (int i = 0; i < N; ++i)
+        for (int j = 0; j <= i; ++j) {
+          for (int k = 0; k <= j; ++k) y(i, j) += symmetric_detail::scaled(mx(i, k), m(j, k));
+          y(j, i) = y(i, j);
+        }
+      return theta(p, y);
+    }
+
+   private:
+    // y = L^-1 p L^-T - I
+    Vec<S, dim> theta(const Vec<T, N * N>& p, const Mat<S, N, N>& y) const {
+      const Mat<S, N, N> z = half_ * y;
+      Mat<S, N, N> d = whole_;
+      for (int i = 0; i < N; ++i)
+        for (int j = i; j < N; ++j) {
+          for (int k = 0; k < N; ++k) d(i, j) += z(i, k) * half_(k, j);
+          d(j, i) = d(i, j);
+        }
+      return symmetric_coordinates(relative_log(d, [&] { return lower_congruence(inverse_, matrix(p)); }));
+    }
+
+    Mat<T, N, N> q_, inverse_;
+    Mat<S, N, N> half_, whole_;  // exp(-W/2), exp(-W) - I
+  };
+
+  template <class S, class T>
+  class LogAroundByLanes {
+   public:
+    LogAroundByLanes(const Vec<T, N * N>& q, const Mat<T, N * N, dim>& e, const Vec<S, dim>& w) {
+      lanes_.reserve(static_cast<std::size_t>(lanes<T>));
+      for (int l = 0; l < lanes<T>; ++l) lanes_.emplace_back(lane(q, l), matrix_lane(e, l), lane(w, l));
+    }
+    Vec<S, dim> theta(const Vec<T, N * N>& p) const {
+      Vec<S, dim> r;
+      for (int l = 0; l < lanes<T>; ++l) set_lane(r, l, lanes_[static_cast<std::size_t>(l)].theta(lane(p, l)));
+      return r;
+    }
+    Vec<S, dim> theta(const Vec<T, N * N>& p, const Mat<T, N * N, dim>& e, const Vec<S, dim>& v) const {
+      Vec<S, dim> r;
+      for (int l = 0; l < lanes<T>; ++l) set_lane(r, l, lanes_[static_cast<std::size_t>(l)].theta(lane(p, l), matrix_lane(e, l), lane(v, l)));
+      return r;
+    }
+
+   private:
+    static Mat<double, N * N, dim> matrix_lane(const Mat<T, N * N, dim>& e, int l) {
+      Mat<double, N * N, dim> r;
+      for (std::size_t i = 0; i < r.e.size(); ++i) r.e[i] = lane(e.e[i], l);
+      return r;
+    }
+    std::vector<LogAroundAtOnce<OneLane<S>, double>> lanes_;
+  };
+
+ public:
+  /// log_q(p) with q = q(w) and p = p(v) moving, in coordinates of a frame that moves with q: what a Riemannian mean differentiates, at a third of the cost of
+  /// exp, exp and log. With q(w) = B B^T, B = L exp(W/2), the coordinates in the frame B S_k B^T are those of log(B^-1 p B^-T); around w = 0 and v = 0,
+  /// exp(-W/2) and exp(V) are their Taylor polynomials of the order that the scalar S carries.
+  template <class S, class T>
+  using LogAround = std::conditional_t<one_by_one<S>, LogAroundByLanes<S, T>, LogAroundAtOnce<S, T>>;
+
   /// The symmetric part of x; false where x is not symmetric to eight digits or not positive definite.
   static bool make_point(const Vec<double, N * N>& x, Vec<double, N * N>& p) {
     p = point(sym(matrix(x)));
@@ -99,6 +197,29 @@ struct Spd {
       }
     }
     return skewness / largest;
+  }
+
+ private:
+  template <class T, class F>
+  static Vec<T, N * N> lane_by_lane(const Vec<T, N * N>& a, const Vec<T, N * N>& b, F f) {
+    Vec<T, N * N> r;
+    for (int l = 0; l < lanes<T>; ++l) set_lane(r, l, f(lane(a, l), lane(b, l)));
+    return r;
+  }
+  /// log(I + D). Near I from D, with an error relative to D; far from I (in any lane) from plain(), the plain value of I + D computed without a difference.
+  template <class T, class Plain>
+  static Mat<T, N, N> relative_log(const Mat<T, N, N>& d, Plain plain) {
+    Base<T> size2 = Base<T>(0.0);
+    for (const T& x : d.e) size2 += base(x) * base(x);
+    if (all(size2 < Base<T>(0.25))) return symmetric_log1p(d);
+    if constexpr (is_base<T>) {
+      return symmetric_log(plain());
+    } else {
+      Mat<T, N, N> far = d;
+      const Mat<Base<T>, N, N> value = plain();
+      for (std::size_t i = 0; i < far.e.size(); ++i) symmetric_detail::set_value(far.e[i], value.e[i]);
+      return symmetric_log(far);
+    }
   }
 };
 

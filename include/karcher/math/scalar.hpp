@@ -5,10 +5,13 @@
 /// Scalars are double, Pack<W>, Jet<T, N> and Dual<U, D>, nested as their headers say. Comparisons look at the plain value only, so a Jet takes the
 /// branch that its value takes; the answer is a bool or a Mask.
 
+#include <cstddef>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
 #include "karcher/math/dual.hpp"
+#include "karcher/math/tensor.hpp"
 
 namespace karcher {
 
@@ -87,6 +90,73 @@ inline constexpr bool differentiated<Dual<U, D>> = true;
 /// Jet or Dual.
 template <class T>
 concept Differentiated = scalar_detail::differentiated<T>;
+
+/// One lane of a scalar: double for a Pack, Jet<double, N> for a Jet<Pack<W>, N>, ...
+template <class T>
+struct one_lane {
+  using type = double;
+};
+template <class T, int N>
+struct one_lane<Jet<T, N>> {
+  using type = Jet<typename one_lane<T>::type, N>;
+};
+template <class U, int D>
+struct one_lane<Dual<U, D>> {
+  using type = Dual<typename one_lane<U>::type, D>;
+};
+template <class T>
+using OneLane = typename one_lane<T>::type;
+
+namespace scalar_detail {
+// Jets and duals are arrays of plain scalars without gaps, so lane l of a pack of them is every W-th double.
+template <class T>
+void copy_lane(const T& from, int l, OneLane<T>& to) {
+  constexpr std::size_t entries = sizeof(OneLane<T>) / sizeof(double), width = static_cast<std::size_t>(lanes<T>);
+  static_assert(sizeof(T) == entries * width * sizeof(double));
+  const char* source = reinterpret_cast<const char*>(&from) + static_cast<std::size_t>(l) * sizeof(double);
+  char* target = reinterpret_cast<char*>(&to);
+  for (std::size_t i = 0; i < entries; ++i) std::memcpy(target + i * sizeof(double), source + i * width * sizeof(double), sizeof(double));
+}
+template <class T>
+void copy_to_lane(const OneLane<T>& from, int l, T& to) {
+  constexpr std::size_t entries = sizeof(OneLane<T>) / sizeof(double), width = static_cast<std::size_t>(lanes<T>);
+  const char* source = reinterpret_cast<const char*>(&from);
+  char* target = reinterpret_cast<char*>(&to) + static_cast<std::size_t>(l) * sizeof(double);
+  for (std::size_t i = 0; i < entries; ++i) std::memcpy(target + i * width * sizeof(double), source + i * sizeof(double), sizeof(double));
+}
+}  // namespace scalar_detail
+
+template <class T, int N>
+OneLane<Jet<T, N>> lane(const Jet<T, N>& x, int l) {
+  OneLane<Jet<T, N>> r;
+  scalar_detail::copy_lane(x, l, r);
+  return r;
+}
+template <class U, int D>
+OneLane<Dual<U, D>> lane(const Dual<U, D>& x, int l) {
+  OneLane<Dual<U, D>> r;
+  scalar_detail::copy_lane(x, l, r);
+  return r;
+}
+template <class T, int N>
+void set_lane(Jet<T, N>& x, int l, const OneLane<Jet<T, N>>& y) {
+  scalar_detail::copy_to_lane(y, l, x);
+}
+template <class U, int D>
+void set_lane(Dual<U, D>& x, int l, const OneLane<Dual<U, D>>& y) {
+  scalar_detail::copy_to_lane(y, l, x);
+}
+/// One lane of a vector of scalars.
+template <class T, int N>
+Vec<OneLane<T>, N> lane(const Vec<T, N>& x, int l) {
+  Vec<OneLane<T>, N> r;
+  for (int i = 0; i < N; ++i) r[i] = lane(x[i], l);
+  return r;
+}
+template <class T, int N>
+void set_lane(Vec<T, N>& x, int l, const Vec<OneLane<T>, N>& y) {
+  for (int i = 0; i < N; ++i) set_lane(x[i], l, y[i]);
+}
 
 template <Differentiated T>
 auto operator<(const T& a, const T& b) {

@@ -330,16 +330,21 @@ Mat<X, N, N> apply(const Mat<X, N, N>& s, const Mat<Base<X>, N, N>& v, const Vec
             f3[at(i, j, k)] = f3[at(j, k, i)] = f3[at(k, i, j)] = f3[at(k, j, i)] = f3[at(j, i, k)] = f3[at(i, k, j)] = d;
           }
       }
+    // e2[i,k,j] = E_ik E_kj for i <= j; the product is the same for j, k, i.
+    std::array<X, order<X> >= 2 ? static_cast<I>(N * N * N) : 0> e2;
     for (int i = 0; i < N; ++i)
       for (int j = i; j < N; ++j) {
         X t = scaled(e(i, j), f2(i, j));
         if constexpr (order<X> >= 2)
-          for (int k = 0; k < N; ++k) t += scaled(e(i, k), f3[at(i, k, j)]) * e(k, j);
+          for (int k = 0; k < N; ++k) {
+            e2[at(i, k, j)] = e(i, k) * e(k, j);
+            t += scaled(e2[at(i, k, j)], f3[at(i, k, j)]);
+          }
         if (i == j) set_value(t, f[i]);
         g(i, j) = t;
       }
     if constexpr (order<X> >= 3) {
-      // The product of three terms: the multisets of four eigenvalues once each.
+      // The multisets of four eigenvalues once each.
       std::array<T, static_cast<I>(N * N * N * N)> f4;
       const auto at4 = [](int i, int j, int k, int l) { return static_cast<I>(((i * N + j) * N + k) * N + l); };
       for (int i = 0; i < N; ++i)
@@ -357,8 +362,9 @@ Mat<X, N, N> apply(const Mat<X, N, N>& s, const Mat<Base<X>, N, N>& v, const Vec
       for (int i = 0; i < N; ++i)
         for (int j = i; j < N; ++j)
           for (int l = 0; l < N; ++l) {
-            X t = scaled(e(i, 0), fourth(i, 0, l, j)) * e(0, l);
-            for (int k = 1; k < N; ++k) t += scaled(e(i, k), fourth(i, k, l, j)) * e(k, l);
+            const auto pair = [&](int k) -> const X& { return e2[i <= l ? at(i, k, l) : at(l, k, i)]; };
+            X t = scaled(pair(0), fourth(i, 0, l, j));
+            for (int k = 1; k < N; ++k) t += scaled(pair(k), fourth(i, k, l, j));
             g(i, j) += t * e(l, j);
           }
     }

@@ -16,4 +16,6 @@ configure_package_config_file(cmake/KarcherConfig.cmake.in ${PROJECT_BINARY_DIR}
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/KarcherConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/KarcherConfig.cmake ${PROJECT_BINARY_DIR}/KarcherConfigVersion.cmake cmake/Dependencies.cmake
         DESTINATION ${package_directory})
+# `karcher list examples` and `karcher new` look for them beside the program.
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/karcher PATTERN results* EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -120,10 +120,10 @@ struct Spd {
       Mat<S, N, N> y = cast<S>(lower_congruence(inverse_, matrix(p) - q_)), mx;
       for (int i = 0; i < N; ++i)
         for (int j = 0; j < N; ++j)
-          for (int k = 0; k <= i; ++k) mx(i, j) += symmetric_detail::scaled(change(k, j), m(i, k));
+          for (int k = 0; k <= i; ++k) mx(i, j) += scaled(change(k, j), m(i, k));
       for (int i = 0; i < N; ++i)
         for (int j = 0; j <= i; ++j) {
-          for (int k = 0; k <= j; ++k) y(i, j) += symmetric_detail::scaled(mx(i, k), m(j, k));
+          for (int k = 0; k <= j; ++k) y(i, j) += scaled(mx(i, k), m(j, k));
           y(j, i) = y(i, j);
         }
       return theta(p, y);
@@ -217,7 +217,7 @@ struct Spd {
     } else {
       Mat<T, N, N> far = d;
       const Mat<Base<T>, N, N> value = plain();
-      for (std::size_t i = 0; i < far.e.size(); ++i) symmetric_detail::set_value(far.e[i], value.e[i]);
+      for (std::size_t i = 0; i < far.e.size(); ++i) set_value(far.e[i], value.e[i]);
       return symmetric_log(far);
     }
   }

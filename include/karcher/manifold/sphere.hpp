@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/unit_log_around.hpp"
 #include "karcher/math/functions.hpp"
 
 namespace karcher {
@@ -129,6 +130,8 @@ struct Sphere {
   static Vec<T, N + 1> chord(const Vec<T, N + 1>& q, const Vec<T, N + 1>& p) {
     return unit_vector::chord(q, p);
   }
+  template <class S, class T>
+  using LogAround = UnitLogAround<N, 1, false, S, T>;
   static double defect(const Vec<double, N + 1>& x) { return unit_vector::defect(x); }
 };
 

@@ -91,6 +91,34 @@ inline constexpr bool differentiated<Dual<U, D>> = true;
 template <class T>
 concept Differentiated = scalar_detail::differentiated<T>;
 
+/// x times a plain number, which costs less than a product of scalars.
+template <class T>
+requires is_base<T> T scaled(const T& x, const T& s) { return x * s; }
+template <class T, int N>
+Jet<T, N> scaled(Jet<T, N> x, const T& s) {
+  return x.scale(s);
+}
+template <class U, int D>
+Dual<U, D> scaled(Dual<U, D> x, const Base<U>& s) {
+  x.v = scaled(x.v, s);
+  for (auto& d : x.d) d = scaled(d, s);
+  return x;
+}
+
+/// x with plain value v and the derivatives of x.
+template <class T, int N>
+void set_value(Jet<T, N>& x, const T& v) {
+  x.v = v;
+}
+template <class U, int D>
+void set_value(Dual<U, D>& x, const Base<U>& v) {
+  if constexpr (is_base<U>) {
+    x.v = v;
+  } else {
+    set_value(x.v, v);
+  }
+}
+
 /// One lane of a scalar: double for a Pack, Jet<double, N> for a Jet<Pack<W>, N>, ...
 template <class T>
 struct one_lane {

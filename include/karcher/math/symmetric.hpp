@@ -137,34 +137,6 @@ inline constexpr int order<Jet<T, N>> = 2 + order<T>;
 template <class U, int D>
 inline constexpr int order<Dual<U, D>> = 1 + order<U>;
 
-/// x times a plain number, which costs less than a product of scalars.
-template <class T>
-requires is_base<T> T scaled(const T& x, const T& s) { return x * s; }
-template <class T, int N>
-Jet<T, N> scaled(Jet<T, N> x, const T& s) {
-  return x.scale(s);
-}
-template <class U, int D>
-Dual<U, D> scaled(Dual<U, D> x, const Base<U>& s) {
-  x.v = scaled(x.v, s);
-  for (auto& d : x.d) d = scaled(d, s);
-  return x;
-}
-
-/// x with plain value v and the derivatives of x.
-template <class T, int N>
-void set_value(Jet<T, N>& x, const T& v) {
-  x.v = v;
-}
-template <class U, int D>
-void set_value(Dual<U, D>& x, const Base<U>& v) {
-  if constexpr (is_base<U>) {
-    x.v = v;
-  } else {
-    set_value(x.v, v);
-  }
-}
-
 /// sum_k c_k h_k(u) over Terms terms, u with sum zero, K numbers: h_k = -e_2 h_(k-2) + e_3 h_(k-3) - e_4 h_(k-4).
 template <std::size_t Terms, std::size_t K, class T>
 T homogeneous_series(const std::array<T, K>& u, const std::array<double, Terms>& c) {

@@ -7,8 +7,8 @@
 #include "karcher/error.hpp"
 
 // LAPACK, as Fortran compilers name it; the two lengths belong to the character arguments.
-extern "C" void dsyev_(const char* job, const char* triangle, const int* n, double* a, const int* lda, double* w, double* work, const int* lwork, int* info,
-                       std::size_t, std::size_t);
+extern "C" void dsyev_(const char* job, const char* triangle, const int* n, double* a, const int* lda, double* w, double* work, const int* lwork,
+                       int* info, std::size_t, std::size_t);
 
 namespace karcher {
 

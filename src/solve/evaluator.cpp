@@ -39,7 +39,7 @@ double Evaluator::proximal(const Configuration& u, std::span<double> g, BlockMat
       const auto first = static_cast<std::size_t>(layout.first_dof(f, node));
       for (std::size_t k = 0; k < dim; ++k) {
         for (std::size_t i = 0; i < ambient; ++i) column[i] = frame[i * dim + k];
-        g[first + k] -= weight * manifold.inner(p, column.data(), a.data());
+        if (!g.empty()) g[first + k] -= weight * manifold.inner(p, column.data(), a.data());
         if (!h) continue;
         // The Hessian of 1/2 dist^2 is the identity up to curvature times dist^2. The diagonal block is the first of its row.
         const std::size_t row = (first + k) / bs, inside = (first + k) % bs;
@@ -50,7 +50,7 @@ double Evaluator::proximal(const Configuration& u, std::span<double> g, BlockMat
   return energy;
 }
 
-void Evaluator::finish(Iterate& x, const Evaluation& local, double proximal_energy) {
+void Evaluator::finish_energy(Iterate& x, const Evaluation& local, double proximal_energy) {
   x.failure = exchange_.first_text(local.failure ? local.failure->sentence() : "");
   std::vector<double> sums = local.terms;
   sums.push_back(proximal_energy);
@@ -63,10 +63,12 @@ void Evaluator::finish(Iterate& x, const Evaluation& local, double proximal_ener
   }
   sums.pop_back();
   x.terms = std::move(sums);
-  if (!x.ok()) {
-    x.energy = x.gradient_norm = std::numeric_limits<double>::infinity();
-    return;
-  }
+  if (!x.ok()) x.energy = x.gradient_norm = std::numeric_limits<double>::infinity();
+}
+
+void Evaluator::finish(Iterate& x, const Evaluation& local, double proximal_energy) {
+  finish_energy(x, local, proximal_energy);
+  if (!x.ok()) return;
   exchange_.sum(x.g);
   double square = 0;
   for (std::size_t d = 0; d < x.g.size(); ++d) {
@@ -74,6 +76,13 @@ void Evaluator::finish(Iterate& x, const Evaluation& local, double proximal_ener
     if (d < static_cast<std::size_t>(exchange_.owned_dofs())) square += x.g[d] * x.g[d] / mass_[d];
   }
   x.gradient_norm = std::sqrt(exchange_.sum(square));
+}
+
+void Evaluator::energy(Iterate& x) {
+  Stopwatch watch(phases_.assembly);
+  ++work_.energies;
+  const Evaluation local = functional_.energy(x.u);
+  finish_energy(x, local, tau_ > 0 ? proximal(x.u, {}, nullptr) : 0.0);
 }
 
 void Evaluator::gradient(Iterate& x) {

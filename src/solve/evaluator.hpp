@@ -32,11 +32,14 @@ class Evaluator {
   /// From now on E(u) + 1/(2 tau) sum_i m_i dist(u_i, centre_i)^2, m the lumped mass of each field's space; tau = 0: E alone.
   void set_proximal(const Configuration& centre, double tau);
 
+  /// Fills energy, terms, noise and failure of x. Collective.
+  void energy(Iterate& x);
   /// Fill everything of x but x.u. Collective.
   void gradient(Iterate& x);
   void hessian(Iterate& x, BlockMatrix& h);
 
  private:
+  void finish_energy(Iterate& x, const Evaluation& local, double proximal);
   void finish(Iterate& x, const Evaluation& local, double proximal);
   double proximal(const Configuration& u, std::span<double> g, BlockMatrix* h) const;
 

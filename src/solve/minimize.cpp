@@ -132,6 +132,7 @@ struct Minimizer::State {
   Iterate current;
   double largest_gradient = 0, radius = 1;
   int escapes = 0;
+  double shift_hint = 0;  ///< where to factorise next: 0, or about the multiplier of the next step
 
   State(Functional& f, SolverOptions o)
       : functional(f),
@@ -153,9 +154,27 @@ struct Minimizer::State {
     return std::sqrt(exchange.sum(square));
   }
 
+  /// Norm of the step that moves all nodes as far as s moves the farthest one of each field.
+  double uniform_size(std::span<const double> s) const {
+    double square = 0;
+    for (int f = 0; f < static_cast<int>(layout.fields().size()); ++f) {
+      const int dim = layout.fields()[static_cast<std::size_t>(f)].manifold->dim;
+      double farthest = 0, weight = 0;
+      for (int node : layout.local_nodes(f)) {
+        const auto first = static_cast<std::size_t>(layout.first_dof(f, node));
+        double here = 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) here += s[first + k] * s[first + k];
+        farthest = std::max(farthest, here);
+        if (layout.owns(f, node)) weight += mass[first];
+      }
+      square += exchange.sum(weight) * exchange.max(farthest);
+    }
+    return std::sqrt(square);
+  }
+
   bool factor_at_current();
   Iterate moved(const Configuration& from, std::span<const double> s);
-  void correct(Iterate& x, double lambda, double base_energy, double limit);
+  void correct(Iterate& x, double base_energy, const TrustRegionModel::Step& step);
   bool predict(Configuration& u);
   bool escape_saddle();
   bool iterate();
@@ -190,7 +209,7 @@ bool Minimizer::State::factor_at_current() {
     ldlt = std::make_unique<Ldlt>(exchange, h, fixed);
     model = std::make_unique<TrustRegionModel>(exchange, *ldlt, fixed, mass, work, phases);
   }
-  model->set(h, current.g, 0.0);
+  model->set(h, current.g, shift_hint);
   factored_at.values = current.u.values;
   return true;
 }
@@ -204,22 +223,43 @@ Iterate Minimizer::State::moved(const Configuration& from, std::span<const doubl
   return x;
 }
 
-/// Simplified Newton steps from x with the model's factorisation, as long as they pay. Tangent coordinates at x are taken for those where the
-/// matrix was made: for body frames the natural transport, and in any case the energy decides.
-void Minimizer::State::correct(Iterate& x, double lambda, double base_energy, double limit) {
-  std::vector<double> c(x.g.size());
-  for (int k = 0; k < options.max_corrections && x.ok() && x.gradient_norm > tolerance(); ++k) {
-    model->precondition(x.g, lambda, c);
-    const double length = size(c), scale = length > limit ? -limit / length : -1.0;
-    for (double& v : c) v *= scale;
-    Iterate next = moved(x.u, c);
+/// Goes on from the trial point x with the matrix that is factorised already, as long as it pays. Tangent coordinates at x are taken for those where the
+/// matrix was made: for body frames the natural transport, and in any case the energy decides. Soft directions, for which the old matrix is wrong, must not
+/// spoil what the stiff ones gain; so of the corrections that one basis has to offer, shorter or longer, across the step or not, the best is taken.
+void Minimizer::State::correct(Iterate& x, double base_energy, const TrustRegionModel::Step& step) {
+  double total = std::max(0.0, std::isfinite(base_energy) ? base_energy - x.energy : 0.0);
+  double reach = step.norm;
+  for (int k = 0; k < options.max_corrections && x.gradient_norm > tolerance(); ++k) {
+    model->set_gradient(x.g);
+    TrustRegionModel::Step c = model->step(reach, {.accuracy = 0.1, .expansions = 2, .refactorisations = 0});
+    const bool tiny = c.decrease <= 10 * x.noise;
+    Iterate next;
+    next.energy = infinity;
+    double length = 0;
+    for (double part : {1.0, 0.25, 0.0625})
+      for (bool across : {false, true}) {
+        if (tiny && (across || part < 1)) continue;
+        const TrustRegionModel::Step candidate =
+            part == 1 && !across ? c : model->step_in_basis(part * reach, across ? step.y : std::span<const double>());
+        if (part < 1 && !across && c.norm <= part * reach) continue;
+        Iterate y;
+        y.u = x.u;
+        layout.retract(x.u, candidate.s, y.u);
+        evaluator.energy(y);
+        if (y.energy < next.energy) {
+          next = std::move(y);
+          length = candidate.norm;
+        }
+      }
     const double gain = x.energy - next.energy;
+    if (!next.ok() || !(gain > (tiny ? -10 * x.noise : 0.0))) break;
+    evaluator.gradient(next);
     const bool steadier = next.gradient_norm <= 0.5 * x.gradient_norm;
-    if (!next.ok() || !(gain > (steadier ? -10 * x.noise : 0.0))) break;
-    const double total = base_energy - next.energy;
-    const bool pays = total > 0 ? gain > 0.05 * total : gain > 0.3 * (x.energy - base_energy);
+    if (!next.ok() || (tiny && !steadier)) break;
     x = std::move(next);
-    if (!pays && !steadier) break;
+    total += gain;
+    if (gain < 0.1 * total && !steadier) break;
+    reach = std::min(step.norm, 4 * length);
   }
 }
 
@@ -245,16 +285,29 @@ bool Minimizer::State::predict(Configuration& u) {
     multiply(exchange, h, {}, delta, pull);
     for (std::size_t d = 0; d < pull.size(); ++d) pull[d] = fixed[d] ? 0 : pull[d] + current.g[d];
     model->set_gradient(pull);
-    const TrustRegionModel::Step step = model->step(10 * radius, 1e-3);
-    for (std::size_t d = 0; d < delta.size(); ++d) delta[d] += step.s[d];
-    predicted.u = u;
-    retract_all(layout, u, delta, predicted.u);
-    copy_fixed_nodes(layout, *task.boundary, predicted.u);
-    evaluator.gradient(predicted);
-    largest_gradient = 0;
-    if (predicted.ok()) correct(predicted, step.multiplier, infinity, radius);
+    // Soft modes must not carry the inside further than the boundary goes.
+    const double reach = uniform_size(delta);
+    model->step(reach, {});
+    TrustRegionModel::Step step;
+    for (double part : {1.0, 0.25, 0.0625}) {
+      const TrustRegionModel::Step candidate = model->step_in_basis(part * reach);
+      std::vector<double> whole = delta;
+      for (std::size_t d = 0; d < whole.size(); ++d) whole[d] += candidate.s[d];
+      Iterate x;
+      x.u = u;
+      retract_all(layout, u, whole, x.u);
+      copy_fixed_nodes(layout, *task.boundary, x.u);
+      evaluator.energy(x);
+      if (!(x.energy < predicted.energy)) continue;
+      predicted = std::move(x);
+      step = candidate;
+    }
+    if (predicted.energy < infinity) evaluator.gradient(predicted);
+    if (options.initial_radius == 0) radius = std::min(radius, reach);
+    if (predicted.energy < infinity) correct(predicted, infinity, step);
   }
-  current = predicted.energy <= naive.energy ? std::move(predicted) : std::move(naive);
+  const bool better = predicted.energy < infinity && predicted.energy <= naive.energy;
+  current = better ? std::move(predicted) : std::move(naive);
   return true;
 }
 
@@ -284,6 +337,7 @@ bool Minimizer::State::escape_saddle() {
 
 /// Inertia of the true Hessian at the current iterate, into the report. False if it cannot be evaluated.
 bool Minimizer::State::count_negative_eigenvalues() {
+  shift_hint = 0;
   if (!factor_at_current()) return false;
   if (model->shift() != 0) model->refactor(0.0);
   double stiffest = 0;
@@ -328,10 +382,8 @@ bool Minimizer::State::end(const std::string& test) {
 
 /// One factorisation's worth of work: trial steps until one is accepted. True if the run has ended.
 bool Minimizer::State::iterate() {
-  largest_gradient = std::max(largest_gradient, current.gradient_norm);
   if (current.gradient_norm <= tolerance())
-    return end(
-        fmt::format("The gradient norm {:.3g} is at most {:.3g} (largest seen: {:.3g})", current.gradient_norm, tolerance(), largest_gradient));
+    return end(fmt::format("The gradient norm {:.3g} is at most {:.3g} ({:.3g} at the start)", current.gradient_norm, tolerance(), largest_gradient));
   if (!factor_at_current()) {
     stop(Status::failed, "The Hessian could not be evaluated: " + current.failure);
     return true;
@@ -347,15 +399,13 @@ bool Minimizer::State::iterate() {
                                               report.iterations, current.gradient_norm, tolerance()));
       return true;
     }
-    TrustRegionModel::Step step = model->step(radius, 1e-2);
+    TrustRegionModel::Step step = model->step(radius, {});
     const bool newton = step.multiplier == 0;
-    if (newton) step = model->step(radius, 1e-8);
-    exchange.update_ghosts(step.s);
+    if (newton) step = model->step(radius, {.accuracy = 1e-8});
     const bool tiny = step.decrease <= 10 * current.noise;
 
     Iterate x = moved(current.u, step.s);
-    const double first_energy = x.energy;
-    if (x.ok()) correct(x, step.multiplier, current.energy, std::max(radius, step.norm));
+    if (x.ok()) correct(x, current.energy, step);
     const double ratio = tiny ? 1.0 : (current.energy - x.energy) / step.decrease;
     const bool accepted =
         x.ok() && (tiny ? x.gradient_norm <= 0.5 * current.gradient_norm && x.energy <= current.energy + 10 * current.noise : ratio > 0.01);
@@ -378,22 +428,24 @@ bool Minimizer::State::iterate() {
                              step.decrease, current.gradient_norm));
     }
     if (accepted) {
-      if (ratio > 0.9 && step.norm > 0.9 * radius)
-        radius *= 2;
-      else if (ratio < 0.25)
+      shift_hint = ratio > 0.75 ? 0.5 * step.multiplier : step.multiplier;
+      if (model->negative_in_basis() < model->inertia().negative) shift_hint = std::max(shift_hint, model->shift());
+      if (ratio < 0.25)
         radius = 0.5 * step.norm;
+      else
+        radius = std::min(ratio > 0.9 && step.norm > 0.9 * radius ? 2 * radius : radius, 8 * step.norm);
       current = std::move(x);
       tell(record);
       if (newton && step.norm <= options.step_tolerance) {
-        largest_gradient = std::max(largest_gradient, current.gradient_norm);
         return end(fmt::format("The Newton step {:.3g} is at most {:.3g}", step.norm, options.step_tolerance));
       }
       return false;
     }
+    model->set_gradient(current.g);
     // Where along s the energy would be least if it were a parabola.
-    const double slope = exchange.dot(step.s, current.g), rise = first_energy - current.energy - slope;
+    const double slope = exchange.dot(step.s, current.g), rise = x.energy - current.energy - slope;
     const double least = std::isfinite(rise) && rise > 0 ? -0.5 * slope / rise : 0.25;
-    radius = std::clamp(least, 0.1, 0.5) * step.norm;
+    radius = std::clamp(least, 0.2, 0.5) * step.norm;
     tell(record);
     if (!(radius > 1e-14)) {
       stop(Status::not_converged, fmt::format("No step reduces the energy, however short; the gradient norm is {:.3g}, its threshold {:.3g}.{}",
@@ -420,8 +472,8 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   s.report = {};
   s.report.load_step = task.load_step;
   s.report.t = u.t;
-  s.largest_gradient = 0;
   s.escapes = 0;
+  s.shift_hint = 0;
   s.radius = s.options.initial_radius > 0 ? s.options.initial_radius : 1.0;
   s.evaluator.set_proximal(u, s.options.method == "gradient-flow" ? task.time_step : 0.0);
 
@@ -430,6 +482,7 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
     s.current.u = u;
     s.evaluator.gradient(s.current);
   }
+  if (s.current.ok()) s.largest_gradient = std::max(s.largest_gradient, s.current.gradient_norm);
   if (!s.current.ok())
     s.stop(Status::failed, "The energy of the initial configuration is not finite: " + s.current.failure);
   else

@@ -43,8 +43,7 @@ void multiply_rows(const BlockMatrix& h, const double* x, double* y) {
 }
 
 constexpr int longest_basis = 60;
-constexpr int expansions_before_refactoring = 20;
-constexpr int refactorisations = 3;
+constexpr int few = 3;  // missing directions that are worth a search
 
 }  // namespace
 
@@ -80,18 +79,19 @@ TrustRegionModel::TrustRegionModel(const Exchange& exchange, Ldlt& ldlt, const s
 
 void TrustRegionModel::set(const BlockMatrix& h, std::span<const double> g, double shift) {
   h_ = &h;
+  basis_.clear();
+  h_basis_.clear();
+  projected_h_.clear();
+  eigen_ = {};
+  searched_ = false;
   refactor(shift);
   set_gradient(g);
 }
 
 void TrustRegionModel::set_gradient(std::span<const double> g) {
   g_.assign(g.begin(), g.end());
-  basis_.clear();
-  h_basis_.clear();
-  projected_h_.clear();
-  projected_g_.clear();
-  eigen_ = {};
-  searched_ = has_steepest_ = false;
+  projected_g_ = against_basis(g_);
+  has_steepest_ = false;
   double square = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += g_[d] * g_[d] / mass_[d];
   dual_norm_ = std::sqrt(exchange_.sum(square));
@@ -150,12 +150,40 @@ bool TrustRegionModel::expand(std::vector<double> w) {
   projected_h_.insert(projected_h_.end(), column.begin(), column.end());
   projected_g_.push_back(exchange_.dot(basis_.back(), g_));
 
+  eigen_ = symmetric_eigen(static_cast<int>(basis_.size()), projected_matrix());
+  return true;
+}
+
+/// The upper triangle of V^T H V, column-major.
+std::vector<double> TrustRegionModel::projected_matrix() const {
   const std::size_t m = basis_.size();
-  std::vector<double> matrix(m * m);
+  std::vector<double> matrix(m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j)
     for (std::size_t i = 0; i <= j; ++i) matrix[j * m + i] = projected_h_[j * (j + 1) / 2 + i];
-  eigen_ = symmetric_eigen(static_cast<int>(m), std::move(matrix));
-  return true;
+  return matrix;
+}
+
+DenseStep TrustRegionModel::solve_in_basis(double radius, std::span<const double> across) const {
+  if (across.empty()) return minimise_in_ball(eigen_, projected_g_, radius);
+  // P B P + kappa a a^T / |a|^2 with P = I - a a^T / |a|^2 and a stiffness kappa that keeps the minimiser off a; the same for the gradient.
+  const std::size_t m = basis_.size();
+  std::vector<double> a(across.begin(), across.end()), matrix = projected_matrix(), ba(m, 0.0), g = projected_g_;
+  a.resize(m, 0.0);
+  double square = 0, aba = 0, ag = 0, trace = 0;
+  for (std::size_t i = 0; i < m; ++i) square += a[i] * a[i];
+  for (double& x : a) x /= std::sqrt(square);
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = 0; i < m; ++i) ba[i] += matrix[std::max(i, j) * m + std::min(i, j)] * a[j];
+  for (std::size_t i = 0; i < m; ++i) {
+    aba += a[i] * ba[i];
+    ag += a[i] * g[i];
+    trace += std::abs(matrix[i * m + i]);
+  }
+  for (std::size_t j = 0; j < m; ++j) {
+    g[j] -= ag * a[j];
+    for (std::size_t i = 0; i <= j; ++i) matrix[j * m + i] += (aba + trace) * a[i] * a[j] - a[i] * ba[j] - ba[i] * a[j];
+  }
+  return minimise_in_ball(symmetric_eigen(static_cast<int>(m), std::move(matrix)), g, radius);
 }
 
 std::vector<double> TrustRegionModel::combine(const std::vector<std::vector<double>>& vectors, std::span<const double> y) const {
@@ -165,7 +193,7 @@ std::vector<double> TrustRegionModel::combine(const std::vector<std::vector<doub
   return result;
 }
 
-TrustRegionModel::Step TrustRegionModel::step(double radius, double accuracy) {
+TrustRegionModel::Step TrustRegionModel::step(double radius, const Effort& effort) {
   std::vector<double> w(g_.size()), r(g_.size());
   if (basis_.empty()) {
     if (dual_norm_ > 0) {
@@ -177,7 +205,7 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, double accuracy) {
   DenseStep best;
   int expansions = 0, refactored = 0, small_gains = 0;
   for (double last = 0;; last = best.decrease) {
-    best = minimise_in_ball(eigen_, projected_g_, radius);
+    best = solve_in_basis(radius, effort.across);
     if (basis_.empty() || static_cast<int>(basis_.size()) >= longest_basis) break;
     if (best.multiplier > 0 && !has_steepest_) {  // at least Cauchy's decrease
       has_steepest_ = true;
@@ -189,36 +217,51 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, double accuracy) {
     for (std::size_t d = 0; d < r.size(); ++d) r[d] = fixed_[d] ? 0 : g_[d] + hs[d] + best.multiplier * mass_[d] * s[d];
     for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += r[d] * r[d] / mass_[d];
     const double residual = std::sqrt(exchange_.sum(square));
-    small_gains = expansions > 0 && best.decrease - last <= accuracy * best.decrease ? small_gains + 1 : 0;
+    small_gains = expansions > 0 && best.decrease - last <= effort.accuracy * best.decrease ? small_gains + 1 : 0;
 
-    const bool all_negative = negative_in_basis() >= inertia_.negative;
-    if (residual <= 1e-10 * dual_norm_ && all_negative) break;
+    const int missing = inertia_.negative - negative_in_basis();
+    if (residual <= 1e-10 * dual_norm_ && missing <= 0) break;
     const bool stuck = small_gains >= 2 || residual <= 1e-10 * dual_norm_;
-    if (stuck && all_negative && residual <= 0.1 * dual_norm_) break;
-    if (stuck && !all_negative && !searched_) {
+    if (stuck && missing <= 0 && residual <= 0.1 * dual_norm_) break;
+    if (stuck && missing > 0 && !searched_ && (missing <= few || missing == inertia_.negative)) {
       find_negative_directions();
       small_gains = 0;
       continue;
     }
-    if (stuck || expansions == expansions_before_refactoring) {
-      if (refactored == refactorisations) break;
-      // At lambda the expansion converges fast. Directions of negative curvature that are missing still appear once the shift is below all eigenvalues.
-      refactor(all_negative ? best.multiplier : std::max({10 * shift_, 2 * best.multiplier, -2 * eigen_.values.front(), dual_norm_ / radius}));
+    if (stuck || expansions == effort.expansions) {
+      if (refactored == effort.refactorisations) break;
+      // At lambda the expansion converges fast, and directions of negative curvature that are missing are the first to appear. Where none is known, the
+      // shift grows until their number falls.
+      if (missing <= 0)
+        refactor(best.multiplier);
+      else if (negative_in_basis() > 0)
+        refactor(std::max({1.5 * shift_, best.multiplier, -1.5 * eigen_.values.front()}));
+      else
+        refactor(shift_ > 0 ? 30 * shift_ : std::max(dual_norm_ / radius, 30 * std::abs(eigen_.values.front())));
       ++refactored;
       expansions = small_gains = 0;
-      if (!all_negative) find_negative_directions();
     }
     solve(r, w);
     if (!expand(w)) break;
     ++expansions;
   }
+  return step_of(best);
+}
+
+TrustRegionModel::Step TrustRegionModel::step_in_basis(double radius, std::span<const double> across) const {
+  return step_of(solve_in_basis(radius, across));
+}
+
+TrustRegionModel::Step TrustRegionModel::step_of(DenseStep dense) const {
   Step result;
-  result.s = combine(basis_, best.y);
-  result.multiplier = best.multiplier;
-  result.decrease = best.decrease;
+  result.s = combine(basis_, dense.y);
+  exchange_.update_ghosts(result.s);
+  result.multiplier = dense.multiplier;
+  result.decrease = dense.decrease;
   double square = 0;
-  for (double y : best.y) square += y * y;
+  for (double y : dense.y) square += y * y;
   result.norm = std::sqrt(square);
+  result.y = std::move(dense.y);
   return result;
 }
 
@@ -235,7 +278,7 @@ void TrustRegionModel::find_negative_directions() {
     const auto global = static_cast<std::uint64_t>(exchange_.local_to_global()[d / first]) * first + d % first;
     mv[d] = fixed_[d] ? 0 : mass_[d] * pseudo_random(global);
   }
-  const int limit = std::min(6 + 2 * inertia_.negative, 20);
+  const int limit = std::min(6 + 2 * inertia_.negative, 16);
   for (int k = 0; k < limit && static_cast<int>(basis_.size()) < longest_basis; ++k) {
     solve(mv, w);
     if (!expand(w) || negative_in_basis() >= inertia_.negative) return;
@@ -246,24 +289,6 @@ void TrustRegionModel::find_negative_directions() {
 std::vector<double> TrustRegionModel::lowest_direction() const {
   if (basis_.empty()) return std::vector<double>(g_.size(), 0.0);
   return combine(basis_, std::span(eigen_.vectors).first(basis_.size()));
-}
-
-void TrustRegionModel::precondition(std::span<const double> r, double lambda, std::span<double> result) {
-  solve(r, result);
-  if (lambda == shift_ || basis_.empty()) return;
-  std::vector<double> weighted(result.begin(), result.end());
-  for (std::size_t d = 0; d < weighted.size(); ++d) weighted[d] *= mass_[d];
-  const std::vector<double> products = against_basis(weighted);
-  const std::size_t m = basis_.size();
-  std::vector<double> change(m, 0.0);
-  for (std::size_t k = 0; k < m; ++k) {
-    const double here = eigen_.values[k] + shift_, there = std::max(eigen_.values[k] + lambda, 1e-3 * std::abs(lambda - shift_));
-    double component = 0;
-    for (std::size_t i = 0; i < m; ++i) component += eigen_.vectors[k * m + i] * products[i];
-    for (std::size_t i = 0; i < m; ++i) change[i] += eigen_.vectors[k * m + i] * component * (here / there - 1);
-  }
-  const std::vector<double> correction = combine(basis_, change);
-  for (std::size_t d = 0; d < correction.size(); ++d) result[d] += correction[d];
 }
 
 }  // namespace karcher

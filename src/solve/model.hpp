@@ -31,7 +31,7 @@ class TrustRegionModel {
 
   /// A new point. h is kept by reference and must not change while the model is used; g by value (fixed entries 0). Factorises at `shift`.
   void set(const BlockMatrix& h, std::span<const double> g, double shift);
-  /// The same matrix and factorisation with another gradient.
+  /// The same matrix, factorisation and basis with another gradient.
   void set_gradient(std::span<const double> g);
   void refactor(double shift);
 
@@ -40,9 +40,17 @@ class TrustRegionModel {
     double multiplier = 0;  ///< lambda
     double decrease = 0;    ///< of the model, >= 0
     double norm = 0;        ///< |s|_M
+    std::vector<double> y;  ///< s in the basis
   };
-  /// \param accuracy  relative gain of the model decrease under which the basis is no longer extended
-  Step step(double radius, double accuracy);
+  struct Effort {
+    double accuracy = 0.05;  ///< relative gain of the model decrease under which the basis is no longer extended
+    int expansions = 10;     ///< solves with one factorisation
+    int refactorisations = 2;
+    std::span<const double> across{};  ///< y of an earlier step: the new one is M-orthogonal to it
+  };
+  Step step(double radius, const Effort& effort);
+  /// The best step in the basis as it is: no solve.
+  Step step_in_basis(double radius, std::span<const double> across = {}) const;
 
   double shift() const { return shift_; }
   /// Inertia of H + shift() M.
@@ -54,11 +62,12 @@ class TrustRegionModel {
   /// Ritz values (ascending) and the vector of the lowest.
   std::vector<double> ritz_values() const { return eigen_.values; }
   std::vector<double> lowest_direction() const;
-  /// Approximately (H + lambda M)^-1 r: the factorisation, corrected on the eigenvectors that the basis knows.
-  void precondition(std::span<const double> r, double lambda, std::span<double> result);
 
  private:
   bool expand(std::vector<double> w);
+  std::vector<double> projected_matrix() const;
+  Step step_of(DenseStep dense) const;
+  DenseStep solve_in_basis(double radius, std::span<const double> across) const;
   void solve(std::span<const double> b, std::span<double> x);
   std::vector<double> combine(const std::vector<std::vector<double>>& vectors, std::span<const double> y) const;
   std::vector<double> against_basis(std::span<const double> w) const;
@@ -75,7 +84,7 @@ class TrustRegionModel {
   Inertia inertia_;
   std::vector<std::vector<double>> basis_, h_basis_;
   std::vector<double> projected_h_, projected_g_;  // V^T H V in packed growing storage: entry (i, j), i <= j at j (j + 1) / 2 + i
-  Eigen eigen_;
+  Eigen eigen_;                                    ///< of V^T H V
   bool has_steepest_ = false;
   bool searched_ = false;  ///< for negative directions that g does not lead to
 };

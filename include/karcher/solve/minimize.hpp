@@ -21,9 +21,11 @@ namespace karcher {
 struct SolverOptions {
   std::string method =
       "trust-region";  ///< "trust-region", or "gradient-flow": one implicit Euler step of the L2 gradient flow for each load step, t is the time
-  std::string subproblem = "direct";       ///< "direct": sparse L D L^T with inertia
-  std::string norm = "mass";               ///< of steps, see solve/norm.hpp
-  double gradient_tolerance = 1e-8;        ///< stop when |g|_* <= gradient_tolerance * (largest |g|_* seen at iterates of this load step)
+  std::string subproblem = "direct";  ///< "direct": sparse L D L^T with inertia
+  std::string norm = "mass";          ///< of steps, see solve/norm.hpp
+  /// Stop when |g|_* <= gradient_tolerance * (largest |g|_* at the start of this or an earlier load step). Points on the way, whose residual may be far
+  /// larger, do not loosen the test.
+  double gradient_tolerance = 1e-8;
   double absolute_gradient_tolerance = 0;  ///< or when |g|_* <= this
   double step_tolerance = 0;               ///< or when the norm of an accepted full Newton step is <= this (0: never)
   int max_iterations = 200;                ///< trial steps, rejected ones included

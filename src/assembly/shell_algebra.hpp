@@ -27,7 +27,7 @@ T load(const double* p) {
 template <class T>
 void store(const T& x, double* p) {
   if constexpr (lanes<T> == 1) {
-    *p = x;
+    *p = lane(x, 0);
   } else {
     x.store(p);
   }
@@ -46,7 +46,7 @@ Mat3<T> matrix(const T* a) {
   return {{a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8]}};
 }
 template <class T>
-void store(const Mat3<T>& m, T* a) {
+void write(const Mat3<T>& m, T* a) {
   for (int k = 0; k < 9; ++k) a[k] = m.e[static_cast<std::size_t>(k)];
 }
 

@@ -148,7 +148,7 @@ class GeodesicRule {
       const Vec3<T>& t = n_.theta[i];
       const T tau = dot(t, t), b0 = n_.beta[i][0], b1 = n_.beta[i][1], b2 = n_.beta[i][2];
       const Mat3<T> d = jacobian(i), dt = transpose(d);
-      store(l * (fk * d), a[i]);
+      write(l * (fk * d), a[i]);
       // B(x) = beta ((theta.x) I + theta x^T - 2 x theta^T) + 2 beta' ((theta.x) theta - tau x) theta^T
       const auto bracket = [&](const Vec3<T>& x) {
         const T tx = dot(t, x), s = b0 * tx;
@@ -164,8 +164,8 @@ class GeodesicRule {
         const Mat3<T> c = (-l) * (bracket(mu_[s]) - hat(T(0.5) * mu_[s]));
         u[s] += y * dt;
         v[s] -= c * dt;
-        store(fk * (y * d), a[i] + 9 * (s + 1));
-        store(transpose_times(f, c * d), b[i] + 9 * (s + 1));
+        write(fk * (y * d), a[i] + 9 * (s + 1));
+        write(transpose_times(f, c * d), b[i] + 9 * (s + 1));
       }
       const Vec3<T> y = times(sg_, t);  // half of the y of adjoint
       const T psi = dot(t, y);
@@ -184,7 +184,7 @@ class GeodesicRule {
 
       const Mat3<T> bp = bracket(n_.phi[i]), half = hat(T(0.5) * n_.phi[i]), e = bp + half, et = bp - half, dh = d * h;
       ww += (dh + et) * dt;
-      store(-transpose_times(f, (dh + T(0.5) * et) * d + T(0.5) * (d * transpose(e))), b[i]);
+      write(-transpose_times(f, (dh + T(0.5) * et) * d + T(0.5) * (d * transpose(e))), b[i]);
       const Sym3<T> own = symmetric_part((dt * h + e) * d);
       n_.block[i].xx += own.xx;
       n_.block[i].xy += own.xy;
@@ -208,8 +208,8 @@ class GeodesicRule {
   void node(int, const double*, const T (*)[2], T* a, T* b) {
     const Mat3<T> w = matrix(a);
     for (int s = 0; s < 2; ++s) {
-      store(matrix(a + 9 * (s + 1)) - u_[s] * w, a + 9 * (s + 1));
-      store(matrix(b + 9 * (s + 1)) + v_[s] * w, b + 9 * (s + 1));
+      write(matrix(a + 9 * (s + 1)) - u_[s] * w, a + 9 * (s + 1));
+      write(matrix(b + 9 * (s + 1)) + v_[s] * w, b + 9 * (s + 1));
     }
   }
   Vec3<T> node_gradient(int i) const { return n_.gradient[i]; }

@@ -53,8 +53,6 @@ void store_form(double* point, int lane, const ShellForm<double>& form, double w
   for (double x : form.s) put(x);
 }
 
-Kernel kernel(Rule rule, Want want) {
-  return rule == Rule::projection ? projection_kernel(want) : geodesic_kernel(want);
-}
+Kernel kernel(Rule rule, Want want) { return rule == Rule::projection ? projection_kernel(want) : geodesic_kernel(want); }
 
 }  // namespace karcher::shell

@@ -1,6 +1,6 @@
+#include "assembly/shell_geodesic.hpp"
 #include "assembly/shell_kernel_impl.hpp"
 #include "assembly/shell_kernel_table.hpp"
-#include "assembly/shell_geodesic.hpp"
 
 namespace karcher::shell {
 

@@ -182,6 +182,10 @@ void force(const PointOperator<T>& o, const T* a, T* h) {
     }
 }
 
+/// Nodes whose 3 x 3 blocks are summed at once: 18 sums fit the 32 registers of AVX-512, 9 the 16 of AVX.
+template <class T>
+inline constexpr int block_nodes = lanes<T> == 8 ? 2 : 1;
+
 /// Adds a_i^T w_j + w_i^T a_j for N consecutive nodes j, whose 9 x 3 matrices follow one another.
 template <class T, int N>
 void rank_update(const T* ai, const T* wi, const T* aj, const T* wj, double* hessian, int stride) {
@@ -260,8 +264,9 @@ void deformation_row(const double* dm, int nm, int i, int count, const T (*block
     }
   }
   double* row = hessian + 3 * i * n * lanes<T>;
+  constexpr int group = block_nodes<T>;
   int j = i;
-  for (; j + 3 <= nm; j += 3) deformation_blocks<T, 3>(dm + 2 * j, nm, count, half, fresh, row + 3 * j * lanes<T>, n);
+  for (; j + group <= nm; j += group) deformation_blocks<T, group>(dm + 2 * j, nm, count, half, fresh, row + 3 * j * lanes<T>, n);
   for (; j < nm; ++j) deformation_blocks<T, 1>(dm + 2 * j, nm, count, half, fresh, row + 3 * j * lanes<T>, n);
 }
 
@@ -303,7 +308,7 @@ struct Workspace {
 
 template <class T, template <class> class RotationRule, Want want>
 [[gnu::flatten]] void evaluate_batch(const Tables& tables, const double* points, const double* m, const double* q, const Output& out) {
-  constexpr int W = lanes<T>;
+  constexpr int W = lanes<T>, group = block_nodes<T>;
   constexpr bool hessian_wanted = want == Want::hessian, gradient_wanted = want != Want::energy;
   const int nm = tables.m_nodes, nr = tables.r_nodes, n = 3 * (nm + nr);
 
@@ -368,10 +373,10 @@ template <class T, template <class> class RotationRule, Want want>
       }
       if constexpr (want == Want::gradient) rule.add_gradient(l, dl, j);
       if constexpr (hessian_wanted) {
+        deformation_block(blocks[p], c, qf, j);  // independent of the chain of operations around it
         rule.linearize(f, l, lb, a, b);
         PointOperator<T> o;
         build(o, c, e, t, qf, j, rule.value_block());
-        deformation_block(blocks[p], c, qf, j);
         for (int i = 0; i < nr; ++i) {
           rule.node(i, l, lb, a[i], b[i]);
           force(o, a[i], forces[p * nr + i]);
@@ -381,8 +386,8 @@ template <class T, template <class> class RotationRule, Want want>
         for (int i = 0; i < nr; ++i) {
           diagonal_update(a[i], b[i], at(r0 + 3 * i, r0 + 3 * i), n);
           int k = i + 1;
-          for (; k + 1 < nr; k += 2) rank_update<T, 2>(a[i], b[i], a[k], b[k], at(r0 + 3 * i, r0 + 3 * k), n);
-          if (k < nr) rank_update<T, 1>(a[i], b[i], a[k], b[k], at(r0 + 3 * i, r0 + 3 * k), n);
+          for (; k + group <= nr; k += group) rank_update<T, group>(a[i], b[i], a[k], b[k], at(r0 + 3 * i, r0 + 3 * k), n);
+          for (; k < nr; ++k) rank_update<T, 1>(a[i], b[i], a[k], b[k], at(r0 + 3 * i, r0 + 3 * k), n);
         }
       }
     }
@@ -391,7 +396,7 @@ template <class T, template <class> class RotationRule, Want want>
       const bool fresh = chunk == 0;
       for (int i = 0; i < nr; ++i) {
         int k = 0;
-        for (; k + 3 <= nm; k += 3) mixed_blocks<T, 3>(dm + 2 * k, nm, count, forces[i], 18 * nr, fresh, at(3 * k, 3 * (nm + i)), n);
+        for (; k + group <= nm; k += group) mixed_blocks<T, group>(dm + 2 * k, nm, count, forces[i], 18 * nr, fresh, at(3 * k, 3 * (nm + i)), n);
         for (; k < nm; ++k) mixed_blocks<T, 1>(dm + 2 * k, nm, count, forces[i], 18 * nr, fresh, at(3 * k, 3 * (nm + i)), n);
       }
       for (int i = 0; i < nm; ++i) deformation_row<T>(dm, nm, i, count, blocks, fresh, out.hessian, n);

@@ -51,8 +51,7 @@ class ProjectionRule {
         for (int k = 0; k < 9; ++k) n_.a[p][k] += T(l[i]) * n_.r[i][k];
         for (int c = 0; c < 4; ++c) q[c] += T(l[i]) * n_.q[i][c];
       }
-      const T scale = T(1.0) / sqrt(dot(q, q));
-      for (int c = 0; c < 4; ++c) n_.found[p][c] = scale * q[c];
+      n_.found[p] = q;
     }
     for (int iteration = 0; iteration < 12; ++iteration) {
       T largest(0.0);
@@ -77,7 +76,7 @@ class ProjectionRule {
       }
     auto ok = n_.converged[p] < T(converged);
     for (int attempt = 0; attempt < 2; ++attempt) {
-      rotation = rotation_matrix(n_.found[p]);
+      rotation = matrix_of(n_.found[p]);
       s_ = symmetric_part(transpose_times(rotation, a));
       const Sym3<T> g{s_.yy + s_.zz, -s_.xy, -s_.xz, s_.xx + s_.zz, -s_.yz, s_.xx + s_.yy};
       const Sym3<T> c = cofactor(g);
@@ -178,12 +177,12 @@ class ProjectionRule {
     Mat3<T> d = -transpose(z);
     for (int k = 0; k < 3; ++k) d(k, k) += tz;
     const Mat3<T> y = fk_ * d, w = l * y;
-    store(w, a);
+    write(w, a);
     for (int s = 0; s < 2; ++s) {
       Mat3<T> c = outer(fmu_[s], lg);
       subtract_times_hat(c, fz, l * mu_[s]);
       add_hat_times(c, fsmu_[s], w);
-      store(c, b + 9 * (s + 1));
+      write(c, b + 9 * (s + 1));
     }
     for (int s = 0; s < 2; ++s) {
       Mat3<T> k = lb[i][s] * y;
@@ -191,7 +190,7 @@ class ProjectionRule {
       subtract_product(k, v_[s], w);
       add_scaled(k, dot(lg, rate[s]), fk_);
       subtract_scaled(k, ltz, fkk_[s]);
-      store(k, a + 9 * (s + 1));
+      write(k, a + 9 * (s + 1));
     }
   }
   /// Gradient of node i, and sym P_i - tr(P_i) I, after all points, where `node` was used.
@@ -208,16 +207,29 @@ class ProjectionRule {
 
   int count() const { return tables_.r_nodes; }
 
-  /// One Newton step for the maximum of tr(Q^T A); returns the square of its angle.
+  /// The rotation of a quaternion of any length.
+  static Mat3<T> matrix_of(const Quaternion<T>& q) {
+    const T s = T(2.0) / dot(q, q), x = s * q[1], y = s * q[2], z = s * q[3];
+    const T xx = q[1] * x, yy = q[2] * y, zz = q[3] * z, xy = q[1] * y, xz = q[1] * z, yz = q[2] * z, wx = q[0] * x, wy = q[0] * y, wz = q[0] * z;
+    const T one(1.0);
+    return {{one - (yy + zz), xy - wz, xz + wy, xy + wz, one - (xx + zz), yz - wx, xz - wy, yz + wx, one - (xx + yy)}};
+  }
+
+  /// One Newton step for the maximum of tr(Q^T A); returns the square of its angle. The quaternion need not have length one (and its length grows with every
+  /// step): all is done with |q|^2 Q, and the step does not feel the factor.
   static T newton_step(const T (&a)[9], Quaternion<T>& q) {
-    const Mat3<T> s = transpose_times(rotation_matrix(q), matrix(a));
+    const T ww = q[0] * q[0], xx = q[1] * q[1], yy = q[2] * q[2], zz = q[3] * q[3];
+    const T x2 = q[1] + q[1], y2 = q[2] + q[2], z2 = q[3] + q[3];
+    const T xy = q[1] * y2, xz = q[1] * z2, yz = q[2] * z2, wx = q[0] * x2, wy = q[0] * y2, wz = q[0] * z2;
+    const T u = ww - xx, v = yy - zz, t = ww + xx, r = yy + zz;
+    const Mat3<T> rotation_times_length{{t - r, xy - wz, xz + wy, xy + wz, u + v, yz - wx, xz - wy, yz + wx, u - v}};
+    const Mat3<T> s = transpose_times(rotation_times_length, matrix(a));
     const Sym3<T> g = trace_minus(s), c = cofactor(g);
     const T det = g.xx * c.xx + g.xy * c.xy + g.xz * c.xz;
     const Vec3<T> w = (T(1.0) / det) * times(c, ax(s));
-    const T angle2 = dot(w, w);
-    const T scale = T(1.0) / sqrt(T(1.0) + T(0.25) * angle2), half = T(0.5) * scale;
-    q = quaternion_product(q, Quaternion<T>{{scale, half * w[0], half * w[1], half * w[2]}});
-    return angle2;
+    const T half(0.5);
+    q = quaternion_product(q, Quaternion<T>{{T(1.0), half * w[0], half * w[1], half * w[2]}});
+    return dot(w, w);
   }
 
   /// Second try for the lanes where Newton's method did not end in the closest rotation.

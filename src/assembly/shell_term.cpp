@@ -179,8 +179,7 @@ class ShellTerm final : public Term {
     }
     for (int i = 0; i < t.m_nodes; ++i) k.blocks.push_back({input_.fields[0], 3});
     for (int i = 0; i < t.r_nodes; ++i) k.blocks.push_back({input_.fields[1], 3});
-    for (Want want : {Want::energy, Want::gradient, Want::hessian})
-      k.kernels[static_cast<std::size_t>(want)] = shell::kernel(field(1).rule, want);
+    for (Want want : {Want::energy, Want::gradient, Want::hessian}) k.kernels[static_cast<std::size_t>(want)] = shell::kernel(field(1).rule, want);
   }
 
   /// Cells list[0 .. W - 1], or all of a shorter list and its last cell repeated.

@@ -39,17 +39,36 @@ struct Weights {
   const std::array<T, static_cast<std::size_t>(D)>* dl = nullptr;  ///< [node][direction]
 };
 
-/// Charts around q with the frame e.
+namespace chart_detail {
+/// q and E w at the scalar U of w, for plain q and E.
+template <class U, class T, int N>
+Vec<U, N> constants(const Vec<T, N>& q) {
+  Vec<U, N> r;
+  for (int c = 0; c < N; ++c) r[c] = constant<U>(q[c]);
+  return r;
+}
+template <class U, class T, int N, int K>
+Vec<U, N> combination(const Mat<T, N, K>& e, const Vec<U, K>& w) {
+  Vec<U, N> r;
+  for (int c = 0; c < N; ++c) {
+    r[c] = scaled(w[0], e(c, 0));
+    for (int i = 1; i < K; ++i) r[c] += scaled(w[i], e(c, i));
+  }
+  return r;
+}
+}  // namespace chart_detail
+
+/// Charts around q with the frame e, at plain scalars T, of the point with the coordinates w at a scalar U with derivatives.
 struct ExponentialChart {
-  template <class M, class T>
-  static Point<M, T> at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<T, M::dim>& w) {
-    return M::exp(q, e * w);
+  template <class M, class T, class U>
+  static Point<M, U> at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<U, M::dim>& w) {
+    return M::exp(chart_detail::constants<U>(q), chart_detail::combination(e, w));
   }
 };
 struct ProjectionChart {
-  template <class M, class T>
-  static Point<M, T> at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<T, M::dim>& w) {
-    return M::project(q + e * w);
+  template <class M, class T, class U>
+  static Point<M, U> at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<U, M::dim>& w) {
+    return M::project(chart_detail::constants<U>(q) + chart_detail::combination(e, w));
   }
 };
 
@@ -59,7 +78,14 @@ FieldJet<M, D, S> jet_at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>&
   constexpr int k = M::dim;
   FieldJet<M, D, S> jet;
   if constexpr (D == 0) {
-    jet.value = Chart::template at<M>(cast<S>(q), cast<S>(e), y);
+    jet.value = Chart::template at<M>(q, e, y);
+  } else if constexpr (lanes<T> > 1 && D * sizeof(S) > 16384) {
+    // Dozens of such scalars do not fit into the caches, nor at length on the stack: lane by lane.
+    for (int l = 0; l < lanes<T>; ++l) {
+      const auto one = jet_at<M, D, Chart, double, OneLane<S>>(lane(q, l), lane(e, l), lane(y, l));
+      set_lane(jet.value, l, one.value);
+      for (std::size_t a = 0; a < D; ++a) set_lane(jet.d[a], l, one.d[a]);
+    }
   } else {
     using U = Dual<S, D>;
     Vec<U, k> w;
@@ -67,7 +93,7 @@ FieldJet<M, D, S> jet_at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>&
       w[i].v = y[i];
       for (int a = 0; a < D; ++a) w[i].d[static_cast<std::size_t>(a)] = y[(1 + a) * k + i];
     }
-    const auto x = Chart::template at<M>(cast<U>(cast<S>(q)), cast<U>(cast<S>(e)), w);
+    const auto x = Chart::template at<M>(q, e, w);
     for (int c = 0; c < M::ambient; ++c) {
       jet.value[c] = x[c].v;
       for (int a = 0; a < D; ++a) jet.d[static_cast<std::size_t>(a)][c] = x[c].d[static_cast<std::size_t>(a)];

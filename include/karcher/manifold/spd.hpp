@@ -151,7 +151,7 @@ struct Spd {
    public:
     LogAroundByLanes(const Vec<T, N * N>& q, const Mat<T, N * N, dim>& e, const Vec<S, dim>& w) {
       lanes_.reserve(static_cast<std::size_t>(lanes<T>));
-      for (int l = 0; l < lanes<T>; ++l) lanes_.emplace_back(lane(q, l), matrix_lane(e, l), lane(w, l));
+      for (int l = 0; l < lanes<T>; ++l) lanes_.emplace_back(lane(q, l), lane(e, l), lane(w, l));
     }
     Vec<S, dim> theta(const Vec<T, N * N>& p) const {
       Vec<S, dim> r;
@@ -160,16 +160,11 @@ struct Spd {
     }
     Vec<S, dim> theta(const Vec<T, N * N>& p, const Mat<T, N * N, dim>& e, const Vec<S, dim>& v) const {
       Vec<S, dim> r;
-      for (int l = 0; l < lanes<T>; ++l) set_lane(r, l, lanes_[static_cast<std::size_t>(l)].theta(lane(p, l), matrix_lane(e, l), lane(v, l)));
+      for (int l = 0; l < lanes<T>; ++l) set_lane(r, l, lanes_[static_cast<std::size_t>(l)].theta(lane(p, l), lane(e, l), lane(v, l)));
       return r;
     }
 
    private:
-    static Mat<double, N * N, dim> matrix_lane(const Mat<T, N * N, dim>& e, int l) {
-      Mat<double, N * N, dim> r;
-      for (std::size_t i = 0; i < r.e.size(); ++i) r.e[i] = lane(e.e[i], l);
-      return r;
-    }
     std::vector<LogAroundAtOnce<OneLane<S>, double>> lanes_;
   };
 

@@ -174,11 +174,17 @@ template <class U, int D>
 void set_lane(Dual<U, D>& x, int l, const OneLane<Dual<U, D>>& y) {
   scalar_detail::copy_to_lane(y, l, x);
 }
-/// One lane of a vector of scalars.
+/// One lane of a vector or matrix of scalars.
 template <class T, int N>
 Vec<OneLane<T>, N> lane(const Vec<T, N>& x, int l) {
   Vec<OneLane<T>, N> r;
   for (int i = 0; i < N; ++i) r[i] = lane(x[i], l);
+  return r;
+}
+template <class T, int M, int N>
+Mat<OneLane<T>, M, N> lane(const Mat<T, M, N>& x, int l) {
+  Mat<OneLane<T>, M, N> r;
+  for (std::size_t i = 0; i < x.e.size(); ++i) r.e[i] = lane(x.e[i], l);
   return r;
 }
 template <class T, int N>

@@ -172,6 +172,40 @@ TEST(Minimize, LeavesFixedComponentsAlone) {
   EXPECT_NEAR(report.energy, 10 * 0.5 * 0.25, 1e-12);
 }
 
+TEST(Minimize, TakesAnEnergyThatDoesNotSeeTranslations) {
+  std::vector<double> initial;
+  for (int i = 0; i <= 6; ++i) initial.push_back(0.2 * i * i - i);
+  SmallProblem p(6, manifold_by_name("R1"), springs, initial);
+  p.functional->set_load_parameter(1);
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  complete(*p.layout, p.u);
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_EQ(report.negative_eigenvalues, 0);
+  EXPECT_EQ(report.neutral_eigenvalues, 1);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(p.value(i + 1) - p.value(i), 1, 1e-7);
+}
+
+TEST(Minimize, LeavesASymmetricPathWhereItHasLostItsStability) {
+  // 1/4 (x^2 - 1)^2 + 1/2 (y - 1)^2 at the two nodes of a cell. From x = 0, y = 0 the gradient never points along x, but x = 0 is a saddle.
+  const CellFunction wells = [](const auto& u, const auto&, double, double* g, double* h) {
+    const double x = *u[0], y = *u[1];
+    if (g) {
+      g[0] = x * (x * x - 1);
+      g[1] = y - 1;
+    }
+    if (h) {
+      h[0] = 3 * x * x - 1;
+      h[3] = 1;
+    }
+    return CellValue{0.25 * (x * x - 1) * (x * x - 1) + 0.5 * (y - 1) * (y - 1)};
+  };
+  SmallProblem p(1, manifold_by_name("R1"), wells, {0, 0});
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_EQ(report.negative_eigenvalues, 0) << report.reason;
+  EXPECT_NEAR(report.energy, 0, 1e-14);
+}
+
 TEST(Minimize, FailedEvaluationsShortenTheStepAndNameThePlace) {
   // From a = b the full step goes to b - a = t = 1.9, beyond the barrier at 1.8.
   std::vector<char> fixed{1, 0};

@@ -77,7 +77,7 @@ concept ProjectionIsWhole = requires(Point<M> p) {
 /// M::project(x)               closest point of the manifold to an ambient vector (makes the projection rule available)
 /// M::chord(q, p)              tangent vector at q that is the gradient in q of -1/2 |p - q|^2 (ambient): the projection of p to T_qM; comes with project
 /// M::origin()                 some point, at double: where the law suite begins
-/// M::LogAround<S, T>          log_q(w)(p(v)) in a moving frame, written by hand: spd.hpp has one, weighted_mean.hpp asks for it
+/// M::LogAround<S, T>, M::ChordAround<S, T>   log_q(w)(p(v)) and chord in a moving frame, written by hand (unit_log_around.hpp, spd.hpp) for weighted_mean.hpp
 /// M::dist(p, q), M::defect(x), M::make_point(x, p)   at double: see distance() below and any_manifold.hpp
 template <class M>
 concept Manifold = manifold_detail::HasName<M> && manifold_detail::HasDimensions<M> && manifold_detail::HasExp<M> && manifold_detail::HasLog<M> &&

@@ -59,6 +59,8 @@ struct Rotation {
   }
   template <class S, class T>
   using LogAround = UnitLogAround<3, 2, true, S, T>;
+  template <class S, class T>
+  using ChordAround = UnitVectorAround<3, 2, true, true, S, T>;
   static double defect(const Vec<double, 4>& x) { return unit_vector::defect(x); }
 
   /// The rotation matrix.

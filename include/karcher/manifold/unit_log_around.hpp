@@ -5,7 +5,7 @@
 /// With tau = |w|^2, alpha = <q, p(v)>, beta = E^T p(v):
 ///   c = <q(w), p(v)> = c_0(tau) alpha + c_1(tau) w . beta,
 ///   theta = a(c) ( beta - (c_1(tau) alpha + c_2(tau) w . beta) w ),
-/// where c_k are the Stumpff functions and a(c) the arc ratio. w and v carry derivatives only (plain value zero), so the c_k are their Taylor polynomials; the
+/// (for the chord of rotations, 4 c s instead of 2 a(c) s, the factor a(c) is replaced by 2 c) where c_k are the Stumpff functions and a(c) the arc ratio. w and v carry derivatives only (plain value zero), so the c_k are their Taylor polynomials; the
 /// result is right to the third order in w and the second in v, which is what a Riemannian mean differentiates.
 
 #include "karcher/math/functions.hpp"
@@ -16,12 +16,13 @@ namespace karcher {
 /// \tparam K          dimension
 /// \tparam Scale      metric of the manifold is Scale^2 times that of the ambient space: 1, or 2 for rotations
 /// \tparam Projective p and -p are the same point
-template <int K, int Scale, bool Projective, class S, class T>
-class UnitLogAround {
+/// \tparam Chord      the chord of rotations instead of the logarithm
+template <int K, int Scale, bool Projective, bool Chord, class S, class T>
+class UnitVectorAround {
   static constexpr int M = Scale == 2 ? 4 : K + 1;
 
  public:
-  UnitLogAround(const Vec<T, M>& q, const Mat<T, M, K>& e, const Vec<S, K>& w) : q_(q), e_(T(1.0 * Scale) * e), w_((1.0 / Scale) * w) {
+  UnitVectorAround(const Vec<T, M>& q, const Mat<T, M, K>& e, const Vec<S, K>& w) : q_(q), e_(T(1.0 * Scale) * e), w_((1.0 / Scale) * w) {
     const S tau = norm2(w_);
     c0_ = 1.0 - 0.5 * tau;
     c1_ = 1.0 - (1.0 / 6) * tau;
@@ -51,7 +52,13 @@ class UnitLogAround {
  private:
   Vec<S, K> theta(const S& alpha, const Vec<S, K>& beta) const {
     const S along = dot(w_, beta);
-    const S a = double(Scale) * arc_ratio(c0_ * alpha + c1_ * along);
+    const S c = c0_ * alpha + c1_ * along;
+    S a;
+    if constexpr (Chord) {
+      a = (2.0 * Scale) * c;
+    } else {
+      a = (1.0 * Scale) * arc_ratio(c);
+    }
     const S back = a * (c1_ * alpha + 0.5 * along);
     Vec<S, K> r;
     for (int i = 0; i < K; ++i) r[i] = a * beta[i] - back * w_[i];
@@ -67,5 +74,8 @@ class UnitLogAround {
   Vec<S, K> w_;
   S c0_, c1_;
 };
+
+template <int K, int Scale, bool Projective, class S, class T>
+using UnitLogAround = UnitVectorAround<K, Scale, Projective, false, S, T>;
 
 }  // namespace karcher

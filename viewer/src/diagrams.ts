@@ -9,8 +9,8 @@ interface Series {
   label: string;
   values: (number | null)[];
   paint: string;
-  /** line: joined points; dots: points only; rings: open points only; bars */
-  style?: 'line' | 'dots' | 'rings' | 'bars';
+  /** line: joined points; dots: points only; rings: open points only; stems: points on bars, for counts */
+  style?: 'line' | 'dots' | 'rings' | 'stems';
 }
 
 interface Diagram {
@@ -80,6 +80,7 @@ export class Diagrams {
     const host = document.createElement('div');
     host.className = 'plot';
     block.append(host);
+    const counts = d.series.some((s) => s.style === 'stems');
     const soft = colour('--soft'), line = colour('--line');
     const font = '11px system-ui, "Segoe UI", Arial, sans-serif';
     const data = [d.x, ...d.series.map((s) => s.values.map((v) => (v === null || !Number.isFinite(v) || (d.logarithmic && v <= 0) ? null : v)))] as uPlot.AlignedData;
@@ -91,7 +92,7 @@ export class Diagrams {
       padding: [8, 8, 0, 0],
       scales: {
         x: { time: false, range: d.steps ? stepRange(d.x) : (_, low, high) => (high > low ? [low, high] : [low - 1, high + 1]) },
-        y: d.logarithmic ? { distr: 3, log: 10 } : { range: d.series.some((s) => s.style === 'bars') ? (_, __, high) => [0, Math.max(1, high) * 1.15] : comfortable },
+        y: d.logarithmic ? { distr: 3, log: 10 } : { range: counts ? (_, __, high) => [-0.12 * Math.max(1, high), Math.max(1, high) * 1.2] : comfortable },
       },
       axes: [
         {
@@ -103,7 +104,7 @@ export class Diagrams {
           stroke: soft, font, size: 58, gap: 4, space: d.logarithmic ? 26 : 30, grid: { stroke: line, width: 1 }, ticks: { show: false },
           values: (_, splits) => splits.map((v) => (v === null ? '' : tick(v))),
           ...(d.logarithmic ? { splits: (_: uPlot, __: number, low: number, high: number) => powers(low, high, 5) } : {}),
-          ...(d.series.some((s) => s.style === 'bars') ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] } : {}),
+          ...(counts ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] } : {}),
         },
       ],
       series: [{}, ...d.series.map((s) => seriesOptions(s, d.x.length))],
@@ -151,7 +152,7 @@ export class Diagrams {
 
 function seriesOptions(s: Series, count: number): uPlot.Series {
   const none = () => null;
-  if (s.style === 'bars') return { label: s.label, fill: s.paint, stroke: s.paint, width: 0, paths: uPlot.paths.bars!({ size: [0.5, 26] }), points: { show: false } };
+  if (s.style === 'stems') return { label: s.label, fill: s.paint, stroke: s.paint, width: 0, paths: uPlot.paths.bars!({ size: [0.1, 4] }), points: { show: true, size: 7, fill: s.paint, width: 0 } };
   if (s.style === 'dots') return { label: s.label, stroke: s.paint, paths: none, points: { show: true, size: 5, fill: s.paint, width: 0 } };
   if (s.style === 'rings') return { label: s.label, stroke: s.paint, paths: none, points: { show: true, size: 7, fill: 'transparent', width: 1.5 } };
   return { label: s.label, stroke: s.paint, width: 1.6, spanGaps: true, points: { show: count < 30, size: 5, fill: s.paint, width: 0 } };
@@ -197,7 +198,7 @@ function keyEntry(text: string, paint: string, mark: string): HTMLElement {
 }
 
 function markOf(s: Series): string {
-  return s.style === 'dots' ? 'dot' : s.style === 'rings' ? 'ring' : '';
+  return s.style === 'dots' || s.style === 'stems' ? 'dot' : s.style === 'rings' ? 'ring' : '';
 }
 
 function key(series: Series[]): HTMLElement {
@@ -259,7 +260,7 @@ function diagramsOf(header: Header): Diagram[] {
     const known = negative.filter((n) => n !== null) as number[];
     const remark = known.length === 0 ? 'not known' : known.every((n) => n === 0) ? 'none: every step ended in a local minimum' : 'by load step';
     if (steps.length > 1 || known.some((n) => n > 0)) {
-      out.push({ id: 'inertia', title: 'Negative eigenvalues', remark, x, xLabel: 'load step', steps: true, height: 110, series: [{ label: 'of the Hessian at the end of the step', values: negative, paint: paint(3), style: 'bars' }] });
+      out.push({ id: 'inertia', title: 'Negative eigenvalues', remark, x, xLabel: 'load step', steps: true, height: 110, series: [{ label: 'of the Hessian at the end of the step', values: negative, paint: paint(3), style: 'stems' }] });
     }
   }
   return out;

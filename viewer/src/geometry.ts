@@ -138,6 +138,18 @@ export class ShapeModel {
   }
 }
 
+/** Means of the values of the cells around every vertex, leaving out what is not finite. */
+export function averaged(values: Float32Array, vertices: number, cornerVertices: ArrayLike<number>, cellOf: (corner: number) => number): Float32Array {
+  const sum = new Float32Array(vertices), count = new Float32Array(vertices);
+  for (let i = 0; i < cornerVertices.length; ++i) {
+    const v = values[cellOf(i)];
+    if (!Number.isFinite(v)) continue;
+    sum[cornerVertices[i]] += v;
+    ++count[cornerVertices[i]];
+  }
+  return sum.map((s, i) => s / count[i]);
+}
+
 function moved(reference: Float32Array, displacement: Float32Array | undefined, scale: number): Float32Array {
   if (!displacement) return reference;
   const x = new Float32Array(reference.length);

@@ -36,6 +36,7 @@ function startView(shape: NonNullable<Header['shape']>, model: ShapeModel): View
     range: 'all',
     logarithmic: false,
     clipOutliers: true,
+    smooth: false,
     map: 'viridis',
     surface: true,
     edges: true,
@@ -110,7 +111,7 @@ class Viewer {
     const scale = Math.max(1, width / 1000);
     const under = Math.round((legendHeight(content) + 26) * scale);
     const wish = readWish(location.hash);
-    const drawing = this.stage.picture(width, height - under, wish.picture ? () => this.stage.fit(wish.view, wish.up) : undefined);
+    const drawing = this.stage.picture(width, height - under, wish.picture ? () => this.stage.fit(wish.view, wish.up, true) : undefined);
     const out = document.createElement('canvas');
     out.width = width;
     out.height = height;

@@ -36,9 +36,11 @@ export function buildPanel(container: HTMLElement, model: ShapeModel, view: View
   const range = named(colourFolder.add(view, 'range', { 'this step': 'step', 'all steps': 'all' }).name('range'), 'range');
   const logarithmic = named(colourFolder.add(view, 'logarithmic').name('logarithmic'), 'logarithmic');
   const outliers = named(colourFolder.add(view, 'clipOutliers').name('cap outliers'), 'clipOutliers');
+  const smooth = named(colourFolder.add(view, 'smooth').name('smooth'), 'smooth');
   const follow = () => {
-    const scalar = shape.fields.find((f) => f.name === view.field)?.kind === 'scalar';
-    for (const c of [map, range, logarithmic, outliers]) c.enable(scalar);
+    const field = shape.fields.find((f) => f.name === view.field);
+    for (const c of [map, range, logarithmic, outliers]) c.enable(field?.kind === 'scalar');
+    smooth.enable(field?.at === 'cell');
   };
   follow();
   colourFolder.onChange(follow);

@@ -13,7 +13,7 @@ vec3 shade(vec3 base, vec3 normal, vec3 toEye) {
   float facing = max(0.0, dot(n, v));
   float rim = pow(1.0 - facing, 3.0);
   float gloss = pow(max(0.0, dot(n, normalize(key + v))), 56.0);
-  return base * diffuse * (1.0 - 0.45 * rim) + vec3(0.06) * gloss;
+  return base * diffuse * (1.0 - 0.45 * rim) + (0.012 + 0.14 * base) * gloss;
 }
 vec3 srgb(vec3 c) { return mix(1.055 * pow(max(c, vec3(0.0)), vec3(0.4166667)) - 0.055, 12.92 * c, vec3(lessThanEqual(c, vec3(0.0031308)))); }
 `;

@@ -7,7 +7,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { frame, goodDirection } from './camera';
 import { colourMap, table } from './colours';
 import { FieldInfo } from './data';
-import { Extent, extent, ShapeModel, spread, tubes } from './geometry';
+import { averaged, Extent, extent, ShapeModel, spread, tubes } from './geometry';
 import { glyphGeometry, largestGlyph } from './glyphs';
 import { ClipPlane, glyphMaterial, lineMaterial, mapTexture, Mode, setClip, surfaceMaterial } from './shading';
 import { View } from './view';
@@ -96,16 +96,17 @@ export class Stage {
     return this.model.shape.flat ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
   }
 
-  /** Looks from `direction` (or from where most is seen) at the whole shape, in all its states. */
-  fit(direction?: [number, number, number], up?: [number, number, number]): void {
+  /** Looks from `direction` (or from where most is seen) at the whole shape: in the states from first to last, or in the one that is shown. */
+  fit(direction?: [number, number, number], up?: [number, number, number], still = false): void {
     const { model, view } = this;
-    const last = model.positions(model.shape.states.length - 1, view.scale);
+    const last = model.positions(still ? view.state : model.shape.states.length - 1, view.scale);
     const shown = [last];
-    if (model.shape.displacement.length) shown.push(model.positions(0, view.scale));
-    for (const g of model.shape.glyphs) if (g.name === view.glyphs) shown.push(model.glyphPositions(g, 0, view.scale));
+    if (model.shape.displacement.length && !still) shown.push(model.positions(0, view.scale));
+    const glyphs = model.shape.glyphs.find((g) => g.name === view.glyphs);
+    if (glyphs) shown.push(model.glyphPositions(glyphs, still ? view.state : 0, view.scale));
     const upward = up ? new Vector3(...up) : this.up();
     const from = direction ? new Vector3(...direction) : model.shape.flat ? new Vector3(0, 0, 1) : goodDirection(last, upward);
-    const target = frame(this.camera, shown, from, upward, model.shape.flat ? 1.14 : 1.08);
+    const target = frame(this.camera, shown, from, upward, model.shape.flat || glyphs ? 1.16 : 1.08);
     this.controls.dispose();
     this.controls = this.makeControls();
     this.controls.target.copy(target);
@@ -209,7 +210,7 @@ export class Stage {
       this.place();
       this.drawn = { places, values: '', glyphs: '' };
     }
-    const values = `${view.field}/${view.state}`;
+    const values = `${view.field}/${view.state}/${view.smooth}`;
     if (values !== this.drawn.values) {
       this.paint();
       this.drawn.values = values;
@@ -323,9 +324,11 @@ export class Stage {
     const fill = (geometry: BufferGeometry, vertices: ArrayLike<number>, cellOf: (corner: number) => number) => {
       const scalar = new Float32Array(2 * vertices.length), direction = new Float32Array(3 * vertices.length);
       if (field) {
-        const values = model.values(field, view.state);
+        const smooth = view.smooth && field.at === 'cell' && field.kind === 'scalar';
+        const own = model.values(field, view.state);
+        const values = smooth ? averaged(own, model.shape.vertices, vertices, cellOf) : own;
         for (let i = 0; i < vertices.length; ++i) {
-          const at = field.at === 'cell' ? cellOf(i) : vertices[i];
+          const at = field.at === 'cell' && !smooth ? cellOf(i) : vertices[i];
           if (field.kind === 'scalar') {
             const fine = Number.isFinite(values[at]);
             scalar[2 * i] = fine ? values[at] : 0;

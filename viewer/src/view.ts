@@ -8,6 +8,8 @@ export interface View {
   range: 'step' | 'all';
   logarithmic: boolean;
   clipOutliers: boolean;
+  /** Numbers of cells are averaged at the vertices. */
+  smooth: boolean;
   map: string;
   surface: boolean;
   edges: boolean;

@@ -167,7 +167,7 @@ function displacements(arrays, g, place, states) {
   return states.map(({ t }) => arrays.u16(g.parameters.flatMap(([u, v], i) => place(u, v, t).map((x, k) => x - g.reference[3 * i + k])), 3));
 }
 
-export function moebius({ title = 'Moebius strip under its own weight', nu = 64, nv = 4, cut = 4, steps = 4, nan = false } = {}) {
+export function moebius({ title = 'Moebius strip under its own weight', nu = 64, nv = 4, cut = 4, steps = 4, nan = false, peak = false } = {}) {
   const arrays = new Arrays();
   const place = (u, v, t) => {
     const a = 2 * Math.PI * u, w = (v - 0.5) * 1.1, r = 1.5 + w * Math.cos(a / 2);
@@ -181,7 +181,7 @@ export function moebius({ title = 'Moebius strip under its own weight', nu = 64,
   const density = (scale, power) =>
     states.map(({ t }) => arrays.u16(Array.from({ length: g.cellCount }, (_, c) => {
       const u = Math.floor(c / nv) / nu;
-      return nan && c % 17 === 3 ? NaN : scale * t * t * (0.05 + Math.abs(Math.sin(2 * Math.PI * u)) ** power);
+      return nan && c % 17 === 3 ? NaN : (peak && c === 5 ? 200 : 1) * scale * t * t * (0.05 + Math.abs(Math.sin(2 * Math.PI * u)) ** power);
     })));
   const cells = (name, label, arraysOf, missing = 0) => ({ name, label, kind: 'scalar', at: 'cell', arrays: arraysOf, not_finite: missing });
   shape.fields.push(cells('energy', 'energy density', density(3, 2), nan ? Math.ceil((g.cellCount - 3) / 17) * (steps + 1) : 0), cells('membrane', 'membrane part', density(2, 4)), cells('bending', 'bending part', density(1, 1)));
@@ -299,7 +299,7 @@ export function failed() {
   return page(header, new Arrays());
 }
 
-export const pages = { moebius, solid, curve, sphereMap, spd, failed, nasty: () => moebius({ title: 'A "quoted" title </script><b>&amp; \'more\'', nan: true }), large: () => moebius({ nu: 200, nv: 12, cut: 2, steps: 9 }) };
+export const pages = { moebius, solid, curve, sphereMap, spd, failed, nasty: () => moebius({ title: 'A "quoted" title </script><b>&amp; \'more\'', nan: true }), peak: () => moebius({ title: 'A peak', peak: true }), large: () => moebius({ nu: 208, nv: 12, cut: 2, steps: 9 }) };
 
 if (process.argv[1] === new URL(import.meta.url).pathname) {
   for (const [name, make] of Object.entries(pages)) writeFileSync(`${process.argv[2]}/${name}.html`, make());

@@ -11,6 +11,13 @@
 #include "assembly/shell_algebra.hpp"
 #include "karcher/assembly/shell_kernel.hpp"
 
+/// All that the function calls becomes part of it; not under the address sanitizer, which would make that a matter of minutes for the compiler.
+#if defined(__SANITIZE_ADDRESS__)
+#define KARCHER_FLATTEN
+#else
+#define KARCHER_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace karcher::shell {
 
 /// Strain E_cb and K_cb in the principal frame, and the stresses f = C z.
@@ -307,7 +314,7 @@ struct Workspace {
 };
 
 template <class T, template <class> class RotationRule, Want want>
-[[gnu::flatten]] void evaluate_batch(const Tables& tables, const double* points, const double* m, const double* q, const Output& out) {
+KARCHER_FLATTEN void evaluate_batch(const Tables& tables, const double* points, const double* m, const double* q, const Output& out) {
   constexpr int W = lanes<T>, group = block_nodes<T>;
   constexpr bool hessian_wanted = want == Want::hessian, gradient_wanted = want != Want::energy;
   const int nm = tables.m_nodes, nr = tables.r_nodes, n = 3 * (nm + nr);

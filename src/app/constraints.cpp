@@ -88,6 +88,9 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
       if (spec.point.is_given()) values_.push_back({spec.field, node, -1, f.space->position(node), static_cast<int>(k)});
     }
   }
+  // What cannot be evaluated is told before anything is done.
+  Configuration scratch = initial;
+  for (const double t : {problem.continuation.from, problem.continuation.to}) apply(t, scratch);
 }
 
 void Constraints::write(const NodeValue& value, double t, double* point) const {

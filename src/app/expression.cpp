@@ -149,9 +149,9 @@ Expression Scope::compile(const std::string& text, const std::string& key, const
       parser.DefineVar(name, s.inner.back().second.get());
     }
     parser.SetExpr(text);
-    for (const auto& [name, address] : parser.GetUsedVar()) used.push_back(name);
     s.variables = {};
     parser.Eval();
+    for (const auto& [name, address] : parser.GetUsedVar()) used.push_back(name);
     if (parser.GetNumResults() != 1) wrong(text.find(','), "one value is expected, not a list.");
   } catch (const mu::ParserError& error) {
     const std::size_t position = error.GetPos() < 0 ? 0 : static_cast<std::size_t>(error.GetPos());

@@ -76,11 +76,6 @@ std::optional<int> launch_ranks(int ranks, int argc, char** argv) {
   const int descriptor = mkstemp(status_file);
   if (descriptor < 0) throw Error(fmt::format("No temporary file can be made in /tmp: {}.", std::strerror(errno)));
   close(descriptor);
-  setenv(status_variable, status_file, 1);
-  setenv(terminal_variable, isatty(STDOUT_FILENO) ? "1" : "0", 1);
-  // Open MPI refuses to run as root, as one does in containers, unless both are set.
-  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
 
   std::vector<char*> arguments;
   for (std::string& s : command) arguments.push_back(s.data());
@@ -89,6 +84,11 @@ std::optional<int> launch_ranks(int ranks, int argc, char** argv) {
   const pid_t child = fork();
   if (child < 0) throw Error(fmt::format("mpiexec cannot be started: {}.", std::strerror(errno)));
   if (child == 0) {
+    setenv(status_variable, status_file, 1);
+    setenv(terminal_variable, isatty(STDOUT_FILENO) ? "1" : "0", 1);
+    // Open MPI refuses to run as root, as one does in containers, unless both are set.
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
     // A group of its own: Ctrl-C on the terminal reaches this launcher only. It must not outlive it.
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);

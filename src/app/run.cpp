@@ -77,7 +77,12 @@ int run(const RunOptions& options) {
   });
   Model model = build_model(problem, mesh);
   Configuration u = model.discretisation.initial;
-  together([&] { probe_values(problem, model, u); });
+  together([&] {
+    probe_values(problem, model, u);
+    // Data at the last load are looked at before anything is written.
+    model.functional->set_load_parameter(problem.continuation.to);
+    model.functional->set_load_parameter(problem.continuation.from);
+  });
   const std::uint64_t id = identity(problem, model);
 
   Checkpoint checkpoint;

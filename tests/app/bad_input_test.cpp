@@ -1,0 +1,205 @@
+// Problem files with one mistake each: the message names file, line and column and what is wrong, the exit code is 2, and nothing is written.
+
+#include <gtest/gtest.h>
+
+#include "program_runner.hpp"
+
+namespace karcher::testing {
+namespace {
+
+const std::string good = R"(title = "A strip"
+
+[parameters]
+load = 1.0
+
+[mesh]
+generate = "rectangle"
+size = [2, 1]
+cells = [2, 1]
+shape = "quadrilateral"
+
+[regions.middle]
+dim = 2
+where = "x > 0.9"
+
+[fields.m]
+manifold = "R3"
+order = 1
+
+[fields.Q]
+manifold = "SO3"
+order = 1
+interpolation = "projection"
+initial = "identity"
+
+[[energies]]
+type = "cosserat-shell"
+on = "all"
+deformation = "m"
+rotation = "Q"
+thickness = 0.1
+mu = 1
+lambda = 1
+mu_c = 1
+L_c = 0.1
+
+[[loads]]
+type = "volume"
+field = "m"
+value = [0, 0, "load*t"]
+
+[[dirichlet]]
+field = "m"
+on = "left"
+value = ["x", "y", "z"]
+
+[solver]
+max_iterations = 50
+)";
+
+/// The good file with `from` replaced by `to`.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = good;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+struct Mistake {
+  const char* name;
+  std::string file;
+  std::string place;                  ///< ":line:column: " after the name of the file, or empty
+  std::vector<std::string> contains;  ///< parts of the message
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+std::vector<Mistake> mistakes() {
+  return {
+      {"UnknownKey", with("thickness", "thicknes"), ":31:1: ", {"\"thicknes\"", "Did you mean \"thickness\"?", "Allowed: type, on, deformation"}},
+      {"UnknownSection", with("[solver]", "[solvr]"), ":47:2: ", {"\"solvr\"", "Did you mean \"solver\"?"}},
+      {"UnknownKeyOfTheMesh", with("cells = ", "cell = "), ":9:1: ", {"\"cell\"", "Did you mean \"cells\"?"}},
+      {"UnknownKeyOfTheSolver", with("max_iterations", "max_iteration"), ":48:1: ", {"Did you mean \"max_iterations\"?", "gradient_tolerance"}},
+      {"WrongType",
+       with("max_iterations = 50", "max_iterations = \"many\""),
+       ":48:18: ",
+       {"solver.max_iterations must be a whole number, not a string"}},
+      {"WrongTypeOfAField", with("[fields.m]\nmanifold = \"R3\"", "[fields.m]\nmanifold = 3"), ":17:12: ", {"fields.m.manifold must be a string"}},
+      {"MissingKey", with("mu_c = 1\n", ""), ":26:1: ", {"energies.0 lacks the key \"mu_c\""}},
+      {"UnknownEnergy", with("cosserat-shell", "cosserat-shel"), ":27:8: ", {"Did you mean \"cosserat-shell\"?"}},
+      {"LoadAmongEnergies", with("type = \"cosserat-shell\"", "type = \"volume\""), ":27:8: ", {"belongs under [[loads]]"}},
+      {"UnknownManifold", with("\"SO3\"", "\"SO2\""), ":21:12: ", {"\"SO2\"", "SO3"}},
+      {"UnknownGenerator", with("\"rectangle\"", "\"rectangel\""), ":7:12: ", {"Did you mean \"rectangle\"?"}},
+      {"UnknownField", with("rotation = \"Q\"", "rotation = \"R\""), ":30:12: ", {"there is no field \"R\"", "Fields: m, Q"}},
+      {"UnknownRegion", with("on = \"left\"", "on = \"lefd\""), ":44:6: ", {"\"lefd\"", "Did you mean \"left\"?", "top"}},
+      {"UnknownRegionOfAnEnergy", with("on = \"all\"", "on = \"midle\""), ":28:6: ", {"Did you mean \"middle\"?"}},
+      {"EmptyRegion", with("x > 0.9", "x > 9"), ":12:10: ", {"middle", "no "}},
+      {"FieldUsedTwice", with("rotation = \"Q\"", "rotation = \"m\""), ":30:12: ", {"m", "R3"}},
+      {"FieldDefinedTwice", with("[fields.Q]", "[fields.m]"), ":20:", {"this is not TOML"}},
+      {"MeshFileMissing",
+       with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"", "file = \"nowhere.msh\""),
+       ":7:8: ",
+       {"nowhere.msh"}},
+      {"ExpressionWithASyntaxError", with("\"load*t\"", "\"load*(t\""), ":40:24: ", {"load*(t", "loads.0.value.2"}},
+      {"ExpressionWithAnUnknownName", with("\"load*t\"", "\"laod*t\""), ":40:17: ", {"\"laod\" is not known", "Did you mean \"load\"?"}},
+      {"NonFiniteNumber", with("thickness = 0.1", "thickness = nan"), ":31:13: ", {"energies.0.thickness must be finite"}},
+      {"NonFiniteExpression", with("\"x\", \"y\", \"z\"", "\"x/x\", \"y\", \"z\""), ":45:11: ", {"dirichlet.0.value.0", "nan", "at (0, 0, 0)"}},
+      {"ValueOutOfRange", with("thickness = 0.1", "thickness = -0.1"), ":31:13: ", {"energies.0.thickness is -0.1; it must be greater than 0"}},
+      {"WrongNumberOfEntries", with("[0, 0, \"load*t\"]", "[0, \"load*t\"]"), ":40:9: ", {"loads.0.value takes 3"}},
+      {"NotARotation", with("\"identity\"", "[1, 2]"), ":24:11: ", {"fields.Q.initial has 2 entries", "rotation vector"}},
+      {"Syntax", with("dim = 2", "dim = = 2"), ":13:", {"this is not TOML"}},
+      {"NoMesh", with("[mesh]", "[regions.mesh]"), "", {"lacks the key \"mesh\""}},
+      {"ComponentOfARotation",
+       with("field = \"m\"\non = \"left\"\nvalue = [\"x\", \"y\", \"z\"]", "field = \"Q\"\non = \"left\"\nvalue = [0, \"free\", 0]"),
+       ":45:13: ",
+       {"axis-free"}},
+      {"ConflictingData",
+       good + "\n[[dirichlet]]\nfield = \"m\"\non = \"bottom\"\nvalue = [\"x\", 0.5, 0]\n",
+       ":50:1: ",
+       {"dirichlet.1 and dirichlet.0", "different values at (0, 0, 0)", "0.5"}},
+      {"ParameterWithAForbiddenName", with("load = 1.0", "t = 1.0"), ":4:1: ", {"\"t\""}},
+      {"TooManyRefinements", with("[mesh]", "[mesh]\nrefine = -1"), ":7:10: ", {"mesh.refine must be from 0"}},
+      {"UnknownMethod", with("max_iterations = 50", "method = \"newton\""), ":48:10: ", {"newton", "trust-region"}},
+      {"ProjectionWherePointsHaveNone",
+       with("[solver]", "[fields.P]\nmanifold = \"SPD3\"\ninterpolation = \"projection\"\n[solver]"),
+       ":49:17: ",
+       {"geodesic", "closest point"}},
+      {"UnusedField", with("[solver]", "[fields.P]\nmanifold = \"SPD3\"\n[solver]"), ":47:9: ", {"no energy uses the field \"P\""}},
+      {"UnknownQuantity",
+       good + "[[probes]]\nname = \"tip\"\nfield = \"m\"\nat = [2, 0.5, 0]\nquantity = \"displacment\"\n",
+       ":53:12: ",
+       {"Did you mean \"displacement\"?"}},
+      {"ProbeOutside", good + "[[probes]]\nname = \"tip\"\nfield = \"m\"\nat = [3, 0.5, 0]\n", ":52:6: ", {"outside"}},
+      {"RegionOfTheWrongDimension", with("on = \"all\"", "on = \"left\""), ":28:6: ", {"dimension 2", "\"left\" has dimension 1"}},
+      {"ADate", with("title = \"A strip\"", "title = 2020-01-01"), ":1:9: ", {"dates"}},
+  };
+}
+
+class BadInput : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BadInput, IsToldOnceWithItsPlaceAndNothingIsWritten) {
+  const Mistake& mistake = GetParam();
+  const Workshop shop;
+  shop.write("strip.toml", mistake.file);
+  const auto before = shop.files();
+  const Outcome o = shop.karcher("run strip.toml");
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_EQ(o.out, "");
+  EXPECT_NE(o.err.find("strip.toml" + mistake.place), std::string::npos) << "expected place " << mistake.place << " in: " << o.err;
+  for (const std::string& part : mistake.contains) EXPECT_NE(o.err.find(part), std::string::npos) << "expected " << part << " in: " << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_EQ(shop.files(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadInput, ::testing::ValuesIn(mistakes()), [](const auto& mistake) { return std::string(mistake.param.name); });
+
+TEST(BadInput, OnTwoRanksIsToldOnce) {
+  const Workshop shop;
+  shop.write("strip.toml", with("thickness", "thicknes"));
+  const Outcome o = shop.karcher("run strip.toml -n 2");
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_EQ(o.err.find("strip.toml:31:1: "), o.err.rfind("strip.toml:31:1: ")) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_EQ(shop.files().size(), 1u);
+}
+
+TEST(BadInput, AShellThatIsTooThickForItsCurvatureIsToldWithTheCurvatureOnAnyNumberOfRanks) {
+  std::string text = with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"",
+                          "generate = \"cylinder\"\nradius = 0.04\ncells = [6, 2]\norder = 2");
+  text.replace(text.find("x > 0.9"), 7, "z > 0.4");
+  text.replace(text.find("\"left\""), 6, "\"bottom\"");
+  for (const char* arguments : {"run strip.toml", "run strip.toml -n 2"}) {
+    const Workshop shop;
+    shop.write("strip.toml", text);
+    const Outcome o = shop.karcher(arguments);
+    EXPECT_EQ(o.code, 2) << o.err;
+    EXPECT_NE(o.err.find("strip.toml:26:1: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("curvature"), std::string::npos) << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+    EXPECT_EQ(shop.files().size(), 1u);
+  }
+}
+
+TEST(BadInput, OverridesAreNamedInMessages) {
+  const Workshop shop;
+  shop.write("strip.toml", good);
+  EXPECT_NE(shop.karcher("run strip.toml --set energies.0.thicknes=1").err.find("--set energies.0.thicknes=1: "), std::string::npos);
+  EXPECT_NE(shop.karcher("run strip.toml --set energies.3.thickness=1").err.find("has 1 entries"), std::string::npos);
+  EXPECT_NE(shop.karcher("run strip.toml --set energies.0.thickness=-1").err.find("--set energies.0.thickness=-1: "), std::string::npos);
+  EXPECT_EQ(shop.karcher("run strip.toml --set nonsense").code, 2);
+}
+
+TEST(BadInput, WrongCommandLinesAreInputErrors) {
+  const Workshop shop;
+  EXPECT_EQ(shop.karcher("").code, 2);
+  EXPECT_EQ(shop.karcher("rum problem.toml").code, 2);
+  EXPECT_EQ(shop.karcher("run").code, 2);
+  EXPECT_EQ(shop.karcher("run nowhere.toml").code, 2);
+  EXPECT_NE(shop.karcher("run nowhere.toml").err.find("nowhere.toml"), std::string::npos);
+  EXPECT_EQ(shop.karcher("list manyfolds").code, 2);
+  EXPECT_NE(shop.karcher("list manyfolds").err.find("Did you mean \"manifolds\"?"), std::string::npos);
+  EXPECT_NE(shop.karcher("doc solver.methd").err.find("Did you mean \"solver.method\"?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace karcher::testing

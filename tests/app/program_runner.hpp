@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// Runs the built program as a user does, in a directory of its own.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace karcher::testing {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+inline std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A directory that disappears with it.
+class Workshop {
+ public:
+  Workshop() {
+    std::string name = (std::filesystem::temp_directory_path() / "karcher-test-XXXXXX").string();
+    if (!mkdtemp(name.data())) std::abort();
+    directory_ = name;
+  }
+  ~Workshop() {
+    std::error_code code;
+    std::filesystem::remove_all(directory_, code);
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+
+  const std::filesystem::path& directory() const { return directory_; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name, std::ios::binary) << text;
+    return directory_ / name;
+  }
+  /// "karcher ARGUMENTS", run in the directory. \param before shell words before it
+  Outcome karcher(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + directory_.string() + "' && " + before + " '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
+                                " >.stdout 2>.stderr </dev/null";
+    const int status = std::system(command.c_str());
+    Outcome o;
+    o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    o.out = content(directory_ / ".stdout");
+    o.err = content(directory_ / ".stderr");
+    std::filesystem::remove(directory_ / ".stdout");
+    std::filesystem::remove(directory_ / ".stderr");
+    return o;
+  }
+  /// Names of everything in the directory.
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& e : std::filesystem::recursive_directory_iterator(directory_)) names.insert(e.path().lexically_relative(directory_).string());
+    return names;
+  }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+}  // namespace karcher::testing

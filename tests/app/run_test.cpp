@@ -1,0 +1,362 @@
+// The program as a user meets it: results, resolved problems, load steps, interruption, resumption, ranks.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program_runner.hpp"
+
+namespace karcher::testing {
+namespace {
+
+using nlohmann::json;
+
+/// A strip, clamped at the left, pulled up at the right; two load steps.
+const std::string strip = R"toml(title = "A strip"
+[parameters]
+load = 2e-5
+L = 2
+[mesh]
+generate = "rectangle"
+size = ["L", 1]
+cells = [4, 2]
+[fields.m]
+manifold = "R3"
+order = 2
+[fields.Q]
+manifold = "SO3"
+order = 1
+[[energies]]
+type = "cosserat-shell"
+deformation = "m"
+rotation = "Q"
+thickness = 0.1
+young = 1.2
+poisson = 0
+mu_c = 0.5
+L_c = 0.01
+[[loads]]
+type = "traction"
+field = "m"
+on = "right"
+value = [0, 0, "load*t"]
+[[dirichlet]]
+field = "m"
+on = "left"
+value = ["x", "y", "z"]
+[[dirichlet]]
+field = "Q"
+on = "left"
+value = "identity"
+[continuation]
+steps = 2
+[[probes]]
+name = "tip"
+field = "m"
+at = [2, 0.5, 0]
+quantity = "displacement"
+[[probes]]
+name = "turn"
+field = "Q"
+at = [2, 0.5, 0]
+quantity = "rotation-vector"
+)toml";
+
+json summary(const Workshop& shop, const std::string& directory) { return json::parse(content(shop.directory() / directory / "summary.json")); }
+
+TEST(Run, LeavesEverythingThatResultsPromise) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const Outcome o = shop.karcher("run strip.toml");
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* file : {"strip/summary.json", "strip/iterations.csv", "strip/solution.pvd", "strip/solution_0000.vtu", "strip/solution_0001.vtu",
+                           "strip/solution_0002.vtu", "strip/problem.resolved.toml", "strip/checkpoint.bin", "strip/report.html"})
+    EXPECT_TRUE(shop.files().contains(file)) << file;
+  const json s = summary(shop, "strip");
+  EXPECT_EQ(s["title"], "A strip");
+  EXPECT_EQ(s["status"], "converged");
+  EXPECT_EQ(s["mesh"]["cells"], 16);
+  EXPECT_EQ(s["unknowns"], 3 * 45 + 3 * 15);
+  ASSERT_EQ(s["load_steps"].size(), 2u);
+  EXPECT_EQ(s["load_steps"][0]["t"], 0.5);
+  EXPECT_EQ(s["load_steps"][1]["t"], 1.0);
+  EXPECT_EQ(s["load_steps"][1]["negative_eigenvalues"], 0);
+  EXPECT_DOUBLE_EQ(s["energy"].get<double>(), s["energies"]["cosserat-shell"].get<double>() + s["energies"]["traction-load"].get<double>());
+  EXPECT_EQ(s["energy"], s["load_steps"][1]["energy"]);
+  // Small load: the beam, w = P l^3 / (3 B), B = E h^3 / 12 per unit width; four cells along are a little too stiff.
+  const double w = s["load_steps"][1]["probes"]["tip"][2];
+  const double beam = 2e-5 * 8 / (3 * 1.2 * 1e-3 / 12);
+  EXPECT_GT(w, 0.9 * beam);
+  EXPECT_LT(w, 1.0 * beam);
+  EXPECT_LT(s["load_steps"][1]["probes"]["turn"][1].get<double>(), 0);  // the end turns up: about -e2
+  EXPECT_NE(o.out.find("converged"), std::string::npos);
+  EXPECT_NE(o.out.find("factorisation"), std::string::npos);
+  EXPECT_EQ(o.out.find('\r'), std::string::npos) << "no transient line where there is no terminal";
+}
+
+TEST(Run, AResolvedProblemGivesTheSameAnswer) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  ASSERT_EQ(shop.karcher("run strip.toml --quiet --set parameters.load=3e-5 --set 'fields.Q.order=2' -o first").code, 0);
+  const Outcome o = shop.karcher("run first/problem.resolved.toml --quiet -o second");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(summary(shop, "first")["energy"], summary(shop, "second")["energy"]);
+  EXPECT_EQ(summary(shop, "first")["load_steps"][1]["probes"], summary(shop, "second")["load_steps"][1]["probes"]);
+  // Resolving is idempotent, up to the directory of results.
+  const auto without_directory = [](std::string text) {
+    return text.erase(text.find("directory = "), text.find('\n', text.find("directory = ")) - text.find("directory = "));
+  };
+  EXPECT_EQ(without_directory(content(shop.directory() / "first/problem.resolved.toml")),
+            without_directory(content(shop.directory() / "second/problem.resolved.toml")));
+}
+
+TEST(Run, AParameterMayBeOverriddenByItsNameAlone) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  ASSERT_EQ(shop.karcher("run strip.toml -q --set load=1e-5 -o a").code, 0);
+  ASSERT_EQ(shop.karcher("run strip.toml -q --set parameters.load=2e-5/2 -o b").code, 0);
+  EXPECT_EQ(summary(shop, "a")["energy"], summary(shop, "b")["energy"]);
+}
+
+TEST(Run, RanksAgree) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  ASSERT_EQ(shop.karcher("run strip.toml -q -o one").code, 0);
+  const json one = summary(shop, "one");
+  for (const int ranks : {2, 3}) {
+    const std::string directory = "ranks" + std::to_string(ranks);
+    const Outcome o = shop.karcher("run strip.toml -n " + std::to_string(ranks) + " -o " + directory);
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    const json many = summary(shop, directory);
+    EXPECT_EQ(many["ranks"], ranks);
+    EXPECT_EQ(many["unknowns"], one["unknowns"]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(many["load_steps"][k]["status"], one["load_steps"][k]["status"]);
+      EXPECT_NEAR(many["load_steps"][k]["energy"].get<double>() / one["load_steps"][k]["energy"].get<double>(), 1, 1e-10);
+    }
+    EXPECT_EQ(o.out.find("Load step 1 of 2"), o.out.rfind("Load step 1 of 2")) << "the table is printed once";
+  }
+}
+
+TEST(Run, NotConvergedIsAResultWithExitCodeOne) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  for (const char* ranks : {"", " -n 2"}) {
+    const Outcome o = shop.karcher(std::string("run strip.toml -q --set solver.max_iterations=0 -o stopped") + ranks);
+    EXPECT_EQ(o.code, 1) << o.err;
+    EXPECT_EQ(summary(shop, "stopped")["status"], "not-converged");
+    EXPECT_EQ(summary(shop, "stopped")["load_steps"].size(), 1u);
+  }
+}
+
+TEST(Run, ResumesAfterTheLastFinishedLoadStepToTheSameEnd) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  ASSERT_EQ(shop.karcher("run strip.toml -q --set continuation.steps=4 -o whole").code, 0);
+  // The third load step is cut off: the load beyond it cannot be solved in no iterations.
+  ASSERT_EQ(shop.karcher("run strip.toml -q --set continuation.steps=4 -o part").code, 0);
+  const json whole = summary(shop, "whole");
+  EXPECT_EQ(shop.karcher("run strip.toml --resume --set continuation.steps=4 -o part").code, 0) << "nothing is left to do";
+  EXPECT_EQ(summary(shop, "part")["energy"], whole["energy"]);
+  EXPECT_EQ(shop.karcher("run strip.toml --resume --set continuation.steps=4 --set parameters.load=1e-5 -o part").code, 2) << "another problem";
+  EXPECT_EQ(shop.karcher("run strip.toml --resume -o nowhere").code, 2);
+}
+
+TEST(Run, AnInterruptKeepsFinishedLoadStepsAndResumes) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const std::string settings = " --set continuation.steps=5000 --set mesh.cells=[6,3] --set output.vtu=false --set output.report=false -q -o results";
+  for (const char* ranks : {"", " -n 2"}) {
+    const Outcome o = shop.karcher("run strip.toml" + settings + ranks, "timeout -s INT 3");
+    // timeout says 124 when it had to send the signal; the program's own code is told with --preserve-status.
+    EXPECT_EQ(o.code, 124) << o.err;
+    const json s = summary(shop, "results");
+    EXPECT_EQ(s["status"], "interrupted") << ranks;
+    EXPECT_GT(s["load_steps"].size(), 1u);
+    EXPECT_LT(s["load_steps"].size(), 5000u);
+    EXPECT_TRUE(shop.files().contains("results/checkpoint.bin"));
+  }
+  const std::size_t before = summary(shop, "results")["load_steps"].size();
+  const Outcome again = shop.karcher("run strip.toml" + settings + " --resume", "timeout --preserve-status -s INT 3");
+  EXPECT_EQ(again.code, 130) << again.err;
+  const json s = summary(shop, "results");
+  EXPECT_GT(s["load_steps"].size(), before);
+  for (std::size_t k = 0; k + 1 < s["load_steps"].size(); ++k) {
+    EXPECT_EQ(s["load_steps"][k]["status"], "converged");
+    EXPECT_NEAR(s["load_steps"][k]["t"].get<double>(), static_cast<double>(k + 1) / 5000, 1e-12);
+  }
+}
+
+TEST(Evaluate, GivesTheClosedFormOfABentStrip) {
+  const Workshop shop;
+  // Flat strip bent to a cylinder of curvature k: [h^3/12 M + h mu L_c^2 (b1 + b2)/2] k^2 per area, M = mu + mu lambda/(lambda + 2 mu); docs/models.md.
+  shop.write("bent.toml", R"toml(
+[parameters]
+k = 0.8
+[mesh]
+generate = "rectangle"
+size = [1, 0.5]
+cells = [8, 2]
+shape = "quadrilateral"
+[fields.m]
+manifold = "R3"
+order = 3
+initial = ["sin(k*x)/k", "y", "(1 - cos(k*x))/k"]
+[fields.Q]
+manifold = "SO3"
+order = 3
+initial = [0, "-k*x", 0]
+[[energies]]
+type = "cosserat-shell"
+deformation = "m"
+rotation = "Q"
+thickness = 0.1
+mu = 2
+lambda = 3
+mu_c = 1
+L_c = 0.05
+b = [1, 2, 3]
+)toml");
+  const Outcome o = shop.karcher("evaluate bent.toml --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json e = json::parse(o.out);
+  const double h = 0.1, m = 2 + 2.0 * 3 / (3 + 4), c = 2 * 0.05 * 0.05 * 3 / 2;
+  EXPECT_NEAR(e["energy"].get<double>() / ((h * h * h / 12 * m + h * c) * 0.64 * 0.5), 1, 1e-6);
+  EXPECT_EQ(e["energies"]["cosserat-shell"], e["energy"]);
+  EXPECT_EQ(shop.files().size(), 1u) << "evaluate writes nothing";
+}
+
+const std::string harmonic = R"toml(
+[parameters]
+r2 = "x^2 + y^2"
+[mesh]
+generate = "rectangle"
+lower = [-1, -1]
+size = [2, 2]
+cells = [8, 8]
+shape = "quadrilateral"
+[fields.u]
+manifold = "S2"
+order = 1
+initial = "exact"
+[[energies]]
+type = "harmonic"
+field = "u"
+[[dirichlet]]
+field = "u"
+on = "boundary"
+value = "exact"
+[exact.u]
+value = ["2*x/(r2 + 1)", "2*y/(r2 + 1)", "(r2 - 1)/(r2 + 1)"]
+[quadrature]
+degree = 12
+)toml";
+
+TEST(Converge, GivesTheKnownMinimisersAndOptimalOrders) {
+  const Workshop shop;
+  shop.write("map.toml", harmonic);
+  // Q1 minimisers of the projection rule on 8 x 8 and 16 x 16, Q2 on 8 x 8 (known from an independent program).
+  const Outcome o = shop.karcher("converge map.toml --levels 2 --json -o out");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json levels = json::parse(o.out)["levels"];
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_NEAR(levels[0]["energy"].get<double>(), 7.0171138772, 1e-9);
+  EXPECT_NEAR(levels[1]["energy"].get<double>(), 6.9768307949, 1e-9);
+  EXPECT_NEAR(levels[0]["errors"]["u"]["l2"].get<double>(), 9.511377e-3, 1e-8);
+  EXPECT_NEAR(levels[0]["errors"]["u"]["h1"].get<double>(), 2.248390e-1, 1e-6);
+  EXPECT_NEAR(levels[2]["orders"]["u"]["l2"].get<double>(), 2, 0.05);
+  EXPECT_NEAR(levels[2]["orders"]["u"]["h1"].get<double>(), 1, 0.05);
+  EXPECT_EQ(json::parse(content(shop.directory() / "out/convergence.json"))["levels"], levels);
+  EXPECT_EQ(
+      content(shop.directory() / "out/convergence.csv").find("level,cells,unknowns,energy,status,l2_u,h1_u,order_l2_u,order_h1_u\n0,64,162,7.01711"),
+      0u);
+}
+
+TEST(Converge, StartsAreEquivalentAndTheFinestLevelStandsInForTheExactSolution) {
+  const Workshop shop;
+  shop.write("map.toml", harmonic);
+  std::string unknown = harmonic;
+  unknown.erase(unknown.find("[exact.u]"), unknown.find("[quadrature]") - unknown.find("[exact.u]"));
+  for (const char* key : {"initial = ", "value = "})
+    unknown.replace(unknown.find(std::string(key) + "\"exact\""), std::string(key).size() + 7, std::string(key) + "[\"2*x\", \"2*y\", \"r2 - 1\"]");
+  shop.write("unknown.toml", unknown);
+  const json prolonged = json::parse(shop.karcher("converge map.toml --set fields.u.order=2 --levels 2 --json").out)["levels"];
+  const json initial = json::parse(shop.karcher("converge map.toml --set fields.u.order=2 --levels 2 --start initial --json").out)["levels"];
+  const Outcome o = shop.karcher("converge unknown.toml --set fields.u.order=2 --levels 3 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json finest = json::parse(o.out)["levels"];
+  EXPECT_NEAR(prolonged[0]["energy"].get<double>(), 6.9639263964, 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(prolonged[k]["energy"].get<double>(), initial[k]["energy"].get<double>(), 1e-11);
+    EXPECT_NEAR(prolonged[k]["energy"].get<double>(), finest[k]["energy"].get<double>(), 1e-11);
+  }
+  EXPECT_NEAR(finest[0]["errors"]["u"]["h1"].get<double>() / prolonged[0]["errors"]["u"]["h1"].get<double>(), 1, 0.01);
+  EXPECT_NEAR(finest[1]["errors"]["u"]["l2"].get<double>() / prolonged[1]["errors"]["u"]["l2"].get<double>(), 1, 0.02);
+  EXPECT_TRUE(finest[3]["errors"].empty());
+}
+
+TEST(Converge, WithoutEnergiesMeasuresInterpolation) {
+  const Workshop shop;
+  shop.write("interpolation.toml", R"toml(
+[mesh]
+generate = "rectangle"
+cells = [4, 4]
+[fields.Q]
+manifold = "SO3"
+order = 2
+interpolation = "geodesic"
+initial = ["sin(x + y)", "x*y", "cos(2*x)"]
+[exact.Q]
+value = ["sin(x + y)", "x*y", "cos(2*x)"]
+)toml");
+  const Outcome o = shop.karcher("converge interpolation.toml --levels 3 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json levels = json::parse(o.out)["levels"];
+  EXPECT_EQ(levels[3]["status"], "interpolated");
+  EXPECT_NEAR(levels[3]["orders"]["Q"]["l2"].get<double>(), 3, 0.1);
+  EXPECT_NEAR(levels[3]["orders"]["Q"]["h1"].get<double>(), 2, 0.1);
+}
+
+TEST(Check, FindsThatDerivativesAreRight) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const Outcome o = shop.karcher("check strip.toml --derivatives");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_NE(o.out.find("gradient and Hessian are right"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("16 cells"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("left                 2 entities of dimension 1"), std::string::npos) << o.out;
+  EXPECT_EQ(shop.files().size(), 1u);
+}
+
+TEST(Catalogue, ListsAndExplains) {
+  const Workshop shop;
+  for (const char* what : {"manifolds", "energies", "meshes", "examples"}) {
+    const Outcome o = shop.karcher(std::string("list ") + what);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_GT(std::count(o.out.begin(), o.out.end(), '\n'), 3) << what;
+  }
+  EXPECT_NE(shop.karcher("list manifolds").out.find("SPD3"), std::string::npos);
+  EXPECT_NE(shop.karcher("list energies").out.find("cosserat-shell"), std::string::npos);
+  EXPECT_NE(shop.karcher("doc energies.cosserat-shell").out.find("thickness"), std::string::npos);
+  EXPECT_NE(shop.karcher("doc mesh.generate").out.find("klein-bottle"), std::string::npos);
+  EXPECT_NE(shop.karcher("doc solver").out.find("gradient_tolerance (number, default: 1e-8)"), std::string::npos);
+  EXPECT_EQ(shop.karcher("version").out.find("karcher "), 0u);
+}
+
+TEST(New, CopiesAnExampleAndOverwritesNothing) {
+  const Workshop shop;
+  Outcome o = shop.karcher("new mine --from cantilever");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_TRUE(shop.files().contains("mine/problem.toml"));
+  EXPECT_FALSE(shop.files().contains("mine/expected.toml"));
+  EXPECT_EQ(shop.karcher("new mine --from cantilever").code, 2);
+  o = shop.karcher("new other --from cantilevr");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("Did you mean \"cantilever\"?"), std::string::npos) << o.err;
+}
+
+}  // namespace
+}  // namespace karcher::testing

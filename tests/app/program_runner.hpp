@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -57,6 +58,25 @@ class Workshop {
     std::filesystem::remove(directory_ / ".stdout");
     std::filesystem::remove(directory_ / ".stderr");
     return o;
+  }
+  /// Starts "karcher ARGUMENTS", sends it SIGINT as soon as `ready`, and waits for it. \returns its exit code
+  template <class Ready>
+  int interrupted(const std::string& arguments, Ready ready) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      const std::string command =
+          "cd '" + directory_.string() + "' && exec '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments + " >/dev/null 2>&1";
+      execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    int status = 0;
+    while (!ready()) {
+      if (waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
+      usleep(20000);
+    }
+    kill(child, SIGINT);
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
   }
   /// Names of everything in the directory.
   std::set<std::string> files() const {

@@ -15,7 +15,7 @@ using nlohmann::json;
 /// A strip, clamped at the left, pulled up at the right; two load steps.
 const std::string strip = R"toml(title = "A strip"
 [parameters]
-load = 2e-5
+load = 2e-6
 L = 2
 [mesh]
 generate = "rectangle"
@@ -84,11 +84,10 @@ TEST(Run, LeavesEverythingThatResultsPromise) {
   EXPECT_EQ(s["load_steps"][1]["negative_eigenvalues"], 0);
   EXPECT_DOUBLE_EQ(s["energy"].get<double>(), s["energies"]["cosserat-shell"].get<double>() + s["energies"]["traction-load"].get<double>());
   EXPECT_EQ(s["energy"], s["load_steps"][1]["energy"]);
-  // Small load: the beam, w = P l^3 / (3 B), B = E h^3 / 12 per unit width; four cells along are a little too stiff.
+  // A small load: the beam, w = P l^3 / (3 B) with B = E h^3 / 12 + h mu L_c^2 (b1 + b2) per unit width; four cells along are a little too stiff.
   const double w = s["load_steps"][1]["probes"]["tip"][2];
-  const double beam = 2e-5 * 8 / (3 * 1.2 * 1e-3 / 12);
-  EXPECT_GT(w, 0.9 * beam);
-  EXPECT_LT(w, 1.0 * beam);
+  const double beam = 2e-6 * 8 / (3 * (1.2 * 1e-3 / 12 + 0.1 * 0.6 * 1e-4 * 2));
+  EXPECT_NEAR(w / beam, 0.98, 0.02);
   EXPECT_LT(s["load_steps"][1]["probes"]["turn"][1].get<double>(), 0);  // the end turns up: about -e2
   EXPECT_NE(o.out.find("converged"), std::string::npos);
   EXPECT_NE(o.out.find("factorisation"), std::string::npos);
@@ -98,7 +97,7 @@ TEST(Run, LeavesEverythingThatResultsPromise) {
 TEST(Run, AResolvedProblemGivesTheSameAnswer) {
   const Workshop shop;
   shop.write("strip.toml", strip);
-  ASSERT_EQ(shop.karcher("run strip.toml --quiet --set parameters.load=3e-5 --set 'fields.Q.order=2' -o first").code, 0);
+  ASSERT_EQ(shop.karcher("run strip.toml --quiet --set parameters.load=3e-6 --set 'fields.Q.order=2' -o first").code, 0);
   const Outcome o = shop.karcher("run first/problem.resolved.toml --quiet -o second");
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.out, "");
@@ -115,8 +114,8 @@ TEST(Run, AResolvedProblemGivesTheSameAnswer) {
 TEST(Run, AParameterMayBeOverriddenByItsNameAlone) {
   const Workshop shop;
   shop.write("strip.toml", strip);
-  ASSERT_EQ(shop.karcher("run strip.toml -q --set load=1e-5 -o a").code, 0);
-  ASSERT_EQ(shop.karcher("run strip.toml -q --set parameters.load=2e-5/2 -o b").code, 0);
+  ASSERT_EQ(shop.karcher("run strip.toml -q --set load=1e-6 -o a").code, 0);
+  ASSERT_EQ(shop.karcher("run strip.toml -q --set parameters.load=2e-6/2 -o b").code, 0);
   EXPECT_EQ(summary(shop, "a")["energy"], summary(shop, "b")["energy"]);
 }
 
@@ -156,7 +155,6 @@ TEST(Run, ResumesAfterTheLastFinishedLoadStepToTheSameEnd) {
   const Workshop shop;
   shop.write("strip.toml", strip);
   ASSERT_EQ(shop.karcher("run strip.toml -q --set continuation.steps=4 -o whole").code, 0);
-  // The third load step is cut off: the load beyond it cannot be solved in no iterations.
   ASSERT_EQ(shop.karcher("run strip.toml -q --set continuation.steps=4 -o part").code, 0);
   const json whole = summary(shop, "whole");
   EXPECT_EQ(shop.karcher("run strip.toml --resume --set continuation.steps=4 -o part").code, 0) << "nothing is left to do";
@@ -166,27 +164,29 @@ TEST(Run, ResumesAfterTheLastFinishedLoadStepToTheSameEnd) {
 }
 
 TEST(Run, AnInterruptKeepsFinishedLoadStepsAndResumes) {
-  const Workshop shop;
-  shop.write("strip.toml", strip);
-  const std::string settings = " --set continuation.steps=5000 --set mesh.cells=[6,3] --set output.vtu=false --set output.report=false -q -o results";
+  const std::string settings =
+      " --set continuation.steps=100000 --set mesh.cells=[4,2] --set output.vtu=false --set output.report=false -q -o results";
   for (const char* ranks : {"", " -n 2"}) {
-    const Outcome o = shop.karcher("run strip.toml" + settings + ranks, "timeout -s INT 3");
-    // timeout says 124 when it had to send the signal; the program's own code is told with --preserve-status.
-    EXPECT_EQ(o.code, 124) << o.err;
-    const json s = summary(shop, "results");
-    EXPECT_EQ(s["status"], "interrupted") << ranks;
-    EXPECT_GT(s["load_steps"].size(), 1u);
-    EXPECT_LT(s["load_steps"].size(), 5000u);
+    const Workshop shop;
+    shop.write("strip.toml", strip);
+    const auto finished = [&] {
+      try {
+        return summary(shop, "results")["load_steps"].size();
+      } catch (const json::exception&) {
+        return std::size_t{0};
+      }
+    };
+    EXPECT_EQ(shop.interrupted("run strip.toml" + settings + ranks, [&] { return finished() >= 3; }), 130);
+    EXPECT_EQ(summary(shop, "results")["status"], "interrupted") << ranks;
     EXPECT_TRUE(shop.files().contains("results/checkpoint.bin"));
-  }
-  const std::size_t before = summary(shop, "results")["load_steps"].size();
-  const Outcome again = shop.karcher("run strip.toml" + settings + " --resume", "timeout --preserve-status -s INT 3");
-  EXPECT_EQ(again.code, 130) << again.err;
-  const json s = summary(shop, "results");
-  EXPECT_GT(s["load_steps"].size(), before);
-  for (std::size_t k = 0; k + 1 < s["load_steps"].size(); ++k) {
-    EXPECT_EQ(s["load_steps"][k]["status"], "converged");
-    EXPECT_NEAR(s["load_steps"][k]["t"].get<double>(), static_cast<double>(k + 1) / 5000, 1e-12);
+    const std::size_t before = finished();
+    EXPECT_EQ(shop.interrupted("run strip.toml --resume" + settings + ranks, [&] { return finished() >= before + 3; }), 130);
+    const json s = summary(shop, "results");
+    ASSERT_GE(s["load_steps"].size(), before + 3);
+    for (std::size_t k = 0; k + 1 < s["load_steps"].size(); ++k) {
+      EXPECT_EQ(s["load_steps"][k]["status"], "converged");
+      EXPECT_NEAR(s["load_steps"][k]["t"].get<double>(), static_cast<double>(k + 1) / 100000, 1e-12);
+    }
   }
 }
 

@@ -6,7 +6,7 @@ const colours = { x: ['#b3352c', '#f08379'], y: ['#1d7a46', '#57c288'], z: ['#2f
 
 /** Draws into a square of `size` CSS pixels at (left, top) of the context. */
 export function drawAxes(context: CanvasRenderingContext2D, camera: PerspectiveCamera, left: number, top: number, size: number, dark: boolean, flat: boolean): void {
-  const centre = size / 2, length = size * 0.34;
+  const centre = size / 2, length = Math.max(20, size * 0.34 - 4);
   const arms = (['x', 'y', 'z'] as const)
     .filter((name) => !(flat && name === 'z'))
     .map((name, k) => ({ name, d: new Vector3(k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0).applyQuaternion(camera.quaternion.clone().invert()) }));

@@ -1,6 +1,6 @@
 // Colour maps: numbers to colours (perceptual scales of d3-scale-chromatic) and directions to colours (hue by azimuth, lightness by height, in OKLCH).
 
-import { interpolateCividis, interpolateInferno, interpolateMagma, interpolatePlasma, interpolatePuOr, interpolateRdBu, interpolateViridis } from 'd3-scale-chromatic';
+import { interpolateCividis, interpolateInferno, interpolateMagma, interpolatePlasma, interpolatePuOr, interpolateRdBu, interpolateViridis, interpolateYlGnBu, interpolateYlOrRd } from 'd3-scale-chromatic';
 
 export interface ColourMap {
   name: string;
@@ -15,6 +15,8 @@ export const colourMaps: ColourMap[] = [
   { name: 'plasma', at: interpolatePlasma, diverging: false },
   { name: 'inferno', at: interpolateInferno, diverging: false },
   { name: 'magma', at: interpolateMagma, diverging: false },
+  { name: 'yellow-green-blue', at: interpolateYlGnBu, diverging: false },
+  { name: 'yellow-orange-red', at: interpolateYlOrRd, diverging: false },
   { name: 'red-blue', at: (x) => interpolateRdBu(1 - x), diverging: true },
   { name: 'orange-purple', at: (x) => interpolatePuOr(1 - x), diverging: true },
 ];

@@ -19,6 +19,7 @@ interface Diagram {
   remark?: string;
   x: number[];
   xLabel: string;
+  /** None: the remark says it all. */
   series: Series[];
   logarithmic?: boolean;
   /** x is a load step: a line marks the step shown, a click shows another. */
@@ -77,6 +78,7 @@ export class Diagrams {
 
   private add(d: Diagram): void {
     const block = this.block(d.id, d.title, d.remark);
+    if (d.series.length === 0) return;
     const host = document.createElement('div');
     host.className = 'plot';
     block.append(host);
@@ -258,10 +260,9 @@ function diagramsOf(header: Header): Diagram[] {
   if (steps.length > 0) {
     const negative = steps.map((s) => (s.negative_eigenvalues < 0 ? null : s.negative_eigenvalues));
     const known = negative.filter((n) => n !== null) as number[];
-    const remark = known.length === 0 ? 'not known' : known.every((n) => n === 0) ? 'none: every step ended in a local minimum' : 'by load step';
-    if (steps.length > 1 || known.some((n) => n > 0)) {
-      out.push({ id: 'inertia', title: 'Negative eigenvalues', remark, x, xLabel: 'load step', steps: true, height: 110, series: [{ label: 'of the Hessian at the end of the step', values: negative, paint: paint(3), style: 'stems' }] });
-    }
+    const remark = known.length === 0 ? 'not known' : steps.length === 1 ? String(known[0]) : known.every((n) => n === 0) ? 'none in any load step' : 'by load step';
+    const series: Series[] = [{ label: 'of the Hessian at the end of the step', values: negative, paint: paint(3), style: 'stems' }];
+    out.push({ id: 'inertia', title: 'Negative eigenvalues', remark, x, xLabel: 'load step', steps: true, height: 110, series: known.length > 0 && steps.length > 1 ? series : [] });
   }
   return out;
 }

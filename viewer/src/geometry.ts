@@ -138,16 +138,28 @@ export class ShapeModel {
   }
 }
 
-/** Means of the values of the cells around every vertex, leaving out what is not finite. */
-export function averaged(values: Float32Array, vertices: number, cornerVertices: ArrayLike<number>, cellOf: (corner: number) => number): Float32Array {
-  const sum = new Float32Array(vertices), count = new Float32Array(vertices);
-  for (let i = 0; i < cornerVertices.length; ++i) {
-    const v = values[cellOf(i)];
-    if (!Number.isFinite(v)) continue;
-    sum[cornerVertices[i]] += v;
-    ++count[cornerVertices[i]];
+/** Values of cells spread to the vertices: means of the cells around a vertex, then of the triangles around it a few times over, since the vertices inside a
+ *  cell see that cell only. What is not finite is left out. */
+export function averaged(values: Float32Array, vertices: number, triangles: ArrayLike<number>, cellOf: (corner: number) => number, passes: number): Float32Array {
+  const means = (at: (corner: number) => number) => {
+    const sum = new Float32Array(vertices), count = new Float32Array(vertices);
+    for (let i = 0; i < triangles.length; ++i) {
+      const v = at(i);
+      if (!Number.isFinite(v)) continue;
+      sum[triangles[i]] += v;
+      ++count[triangles[i]];
+    }
+    return sum.map((s, i) => s / count[i]);
+  };
+  let out = means((i) => values[cellOf(i)]);
+  for (let k = 0; k < passes; ++k) {
+    const old = out;
+    out = means((i) => {
+      const c = i - (i % 3);
+      return (old[triangles[c]] + old[triangles[c + 1]] + old[triangles[c + 2]]) / 3;
+    });
   }
-  return sum.map((s, i) => s / count[i]);
+  return out;
 }
 
 function moved(reference: Float32Array, displacement: Float32Array | undefined, scale: number): Float32Array {
@@ -171,11 +183,12 @@ function pairs(vertices: Uint32Array, starts: Uint32Array, begin: number, end: n
   return new Uint32Array(out);
 }
 
-/** Extent of a scalar field, leaving out what is not finite; `most` is the value that one value in a hundred exceeds. */
+/** Extent of a scalar field, leaving out what is not finite; `most` is exceeded by one value in a hundred, `middle` by half of them. */
 export interface Extent {
   low: number;
   high: number;
   few: number;
+  middle: number;
   most: number;
   smallestPositive: number;
 }
@@ -194,10 +207,10 @@ export function extent(arrays: Float32Array[]): Extent {
       if (i % stride === 0) sample.push(v);
     }
   }
-  if (low > high) return { low: 0, high: 1, few: 0, most: 1, smallestPositive: 1e-3 };
+  if (low > high) return { low: 0, high: 1, few: 0, middle: 0.5, most: 1, smallestPositive: 1e-3 };
   sample.sort((a, b) => a - b);
   const quantile = (q: number) => sample[Math.min(sample.length - 1, Math.floor(q * sample.length))];
-  return { low, high, few: quantile(0.01), most: quantile(0.99), smallestPositive: Number.isFinite(smallestPositive) ? smallestPositive : 1e-3 };
+  return { low, high, few: quantile(0.01), middle: quantile(0.5), most: quantile(0.99), smallestPositive: Number.isFinite(smallestPositive) ? smallestPositive : 1e-3 };
 }
 
 /** Tubes around polylines. Rings stand on the mean direction of the two segments at a vertex, also across the cells that share it. */

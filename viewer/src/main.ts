@@ -4,7 +4,7 @@ import { drawAxes } from './axes';
 import { Header, PageData, readPageData } from './data';
 import { fillDetails, markStep } from './details';
 import { Diagrams } from './diagrams';
-import { ShapeModel } from './geometry';
+import { extent, ShapeModel } from './geometry';
 import { drawLegend, LegendContent, legendHeight } from './legend';
 import { short } from './numbers';
 import { buildPanel } from './panel';
@@ -29,15 +29,19 @@ const icons = {
 
 function startView(shape: NonNullable<Header['shape']>, model: ShapeModel): View {
   const g = shape.glyphs.find((set) => set.name === shape.start.glyphs);
+  const first = shape.fields.find((f) => f.name === shape.start.field);
+  // Where most values are small most of viridis is dark, and the shape is hard to see: then the small ones are pale.
+  const e = first?.kind === 'scalar' ? extent(first.arrays.map((index) => model.data.floats(index)).slice(-1)) : undefined;
+  const skew = e !== undefined && e.middle - e.low < 0.12 * (e.most - e.low);
   const inside = g !== undefined && model.hasSurface && !shape.flat && g.kind !== 'frame';
   return {
-    field: shape.fields.some((f) => f.name === shape.start.field) ? shape.start.field : '',
+    field: first ? first.name : '',
     state: shape.states.length - 1,
     range: 'all',
     logarithmic: false,
     clipOutliers: true,
     smooth: false,
-    map: 'viridis',
+    map: skew ? 'yellow-green-blue' : 'viridis',
     surface: true,
     edges: true,
     opacity: inside ? 0.25 : 1,
@@ -69,6 +73,11 @@ class Viewer {
       if (found || asked === '' || asked === 'none') this.view.field = found?.name ?? '';
       else notes.push(`There is no field "${asked}"; there are: ${shape.fields.map((f) => f.name).join(', ')}.`);
     }
+    const glyphs = this.view.glyphs;
+    const set = shape.glyphs.find((g) => g.name === glyphs) ?? shape.glyphs.find((g) => g.name.endsWith(` ${glyphs}`));
+    if (set) this.view.glyphs = set.name;
+    else if (glyphs === 'none') this.view.glyphs = '';
+    else if (glyphs !== '') notes.push(`There are no glyphs of "${glyphs}"; there are: ${shape.glyphs.map((g) => g.name).join(', ') || 'none'}.`);
     if (wish.step !== undefined) {
       const at = shape.states.findIndex((s) => s.step === wish.step);
       if (at >= 0) this.view.state = at;
@@ -192,7 +201,7 @@ class Viewer {
   /** After every drawing: the tripod. */
   private decorate(): void {
     const canvas = get<HTMLCanvasElement>('axes');
-    const ratio = window.devicePixelRatio || 1, size = 84;
+    const ratio = window.devicePixelRatio || 1, size = canvas.clientWidth;
     canvas.width = canvas.height = size * ratio;
     const context = canvas.getContext('2d')!;
     context.scale(ratio, ratio);

@@ -9,7 +9,7 @@ vec3 shade(vec3 base, vec3 normal, vec3 toEye) {
   if (dot(n, v) < 0.0) n = -n;
   vec3 key = normalize(vec3(-0.45, 0.65, 0.75)), fill = normalize(vec3(0.85, -0.1, 0.45));
   float wrapped = max(0.0, (dot(n, key) + 0.25) / 1.25);
-  float diffuse = 0.34 + 0.10 * n.y + 0.62 * wrapped + 0.16 * max(0.0, dot(n, fill));
+  float diffuse = 0.40 + 0.09 * n.y + 0.60 * wrapped + 0.16 * max(0.0, dot(n, fill));
   float facing = max(0.0, dot(n, v));
   float rim = pow(1.0 - facing, 3.0);
   float gloss = pow(max(0.0, dot(n, normalize(key + v))), 56.0);

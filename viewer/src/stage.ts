@@ -321,12 +321,12 @@ export class Stage {
   private paint(): void {
     const { model, view } = this;
     const field = this.field(view.field);
-    const fill = (geometry: BufferGeometry, vertices: ArrayLike<number>, cellOf: (corner: number) => number) => {
+    const fill = (geometry: BufferGeometry, vertices: ArrayLike<number>, cellOf: (corner: number) => number, passes: number) => {
       const scalar = new Float32Array(2 * vertices.length), direction = new Float32Array(3 * vertices.length);
       if (field) {
         const smooth = view.smooth && field.at === 'cell' && field.kind === 'scalar';
         const own = model.values(field, view.state);
-        const values = smooth ? averaged(own, model.shape.vertices, vertices, cellOf) : own;
+        const values = smooth ? averaged(own, model.shape.vertices, vertices, cellOf, passes) : own;
         for (let i = 0; i < vertices.length; ++i) {
           const at = field.at === 'cell' && !smooth ? cellOf(i) : vertices[i];
           if (field.kind === 'scalar') {
@@ -343,8 +343,8 @@ export class Stage {
       geometry.setAttribute('scalar', new BufferAttribute(scalar, 2));
       geometry.setAttribute('direction', new BufferAttribute(direction, 3));
     };
-    if (model.hasSurface) fill(this.surface.geometry, model.triangles, (corner) => model.triangleCells[(corner / 3) | 0]);
-    if (model.curveVertices.length) fill(this.tube.geometry, this.tubeVertices, (i) => this.tubeCells[i]);
+    if (model.hasSurface) fill(this.surface.geometry, model.triangles, (corner) => model.triangleCells[(corner / 3) | 0], 3);
+    if (model.curveVertices.length) fill(this.tube.geometry, this.tubeVertices, (i) => this.tubeCells[i], 0);
   }
 
   private plant(): void {

@@ -1,9 +1,12 @@
 /// \file
-/// The element kernels of the Cosserat shell on random curved P2 triangles with 7 quadrature points, against ADOL-C on the same elements, and the assembly of
+/// The element kernels of the Cosserat shell on random curved P2 triangles with 7 quadrature points, against ADOL-C on the same elements, and the
+/// assembly of
 /// a whole mesh. Counter time_per_element: seconds of thread CPU time, a low quantile over the repetitions.
 ///
-/// ADOL-C's side is written to its advantage: the energy is taped in the 36 tangent coordinates (not in the 42 coordinates of the nodal values), geometry and
-/// constants are passive doubles, value and derivative of the polar factor share one iteration, and hessian2 is its vector mode, the fastest driver here. As
+/// ADOL-C's side is written to its advantage: the energy is taped in the 36 tangent coordinates (not in the 42 coordinates of the nodal values),
+/// geometry and
+/// constants are passive doubles, value and derivative of the polar factor share one iteration, and hessian2 is its vector mode, the fastest driver
+/// here. As
 /// the branches of the energy depend on the point, every evaluation tapes anew; taping is about a twentieth of the time.
 
 #include <benchmark/benchmark.h>

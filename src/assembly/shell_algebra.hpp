@@ -32,7 +32,8 @@ void store(const T& x, double* p) {
     x.store(p);
   }
 }
-/// x, as a value in a register. Without this GCC reads a loaded number again in every multiplication that uses it, and the load ports become the limit.
+/// x, as a value in a register. Without this GCC reads a loaded number again in every multiplication that uses it, and the load ports become the
+/// limit.
 template <class T>
 T in_register(T x) {
 #if defined(__AVX512F__)

@@ -14,7 +14,8 @@ bool closest_rotation(const Quaternion<double>* q, const double* l, int n, Quate
 /// \returns false, and the identity, if it finds no minimiser
 bool riemannian_mean(const Quaternion<double>* q, const double* l, int n, Quaternion<double>& found);
 
-/// Whether all rotations lie within 90 degrees (half the injectivity radius) of their plain mean: then the mean with positive weights is unique (Afsari 2011).
+/// Whether all rotations lie within 90 degrees (half the injectivity radius) of their plain mean: then the mean with positive weights is unique
+/// (Afsari 2011).
 bool unique_mean(const Quaternion<double>* q, int n);
 
 }  // namespace karcher::shell

@@ -2,7 +2,8 @@
 /// \file
 /// Geodesic interpolation of rotations for the shell kernel: Q(x) is the weighted Riemannian mean, sum_i l_i theta_i = 0 with theta_i = log(Q^T R_i).
 ///
-/// With tau = |theta|^2, D = I + 1/2 [theta] + beta(tau) [theta]^2 and G = sum_i l_i D_i: a nodal variation R_i [v_i] and a turn Q [w] change theta_i by
+/// With tau = |theta|^2, D = I + 1/2 [theta] + beta(tau) [theta]^2 and G = sum_i l_i D_i: a nodal variation R_i [v_i] and a turn Q [w] change theta_i
+/// by
 /// D_i v_i - D_i^T w, the rates are G k_b = sum_i l_{i,b} theta_i. The adjoint is that of docs/cosserat-kernel.md, section 4.
 
 #include "assembly/shell_algebra.hpp"
@@ -255,7 +256,8 @@ class GeodesicRule {
     return (T(1.0) - b * dot(t, t)) * x + (b * dot(t, x)) * t - T(0.5) * cross(t, x);
   }
 
-  /// One Newton step for sum_i l_i theta_i = 0; returns the square of its angle. The first terms of beta will do: they decide the speed, not the result.
+  /// One Newton step for sum_i l_i theta_i = 0; returns the square of its angle. The first terms of beta will do: they decide the speed, not the
+  /// result.
   T newton_step(const double* l, Quaternion<T>& q) const {
     Sym3<T> g{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
     Vec3<T> sum{};

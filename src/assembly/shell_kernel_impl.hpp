@@ -2,8 +2,10 @@
 /// \file
 /// The body of the shell kernel, shared by both interpolation rules. Notation and derivation: docs/cosserat-kernel.md.
 ///
-/// What the solver needs of an element is sum_p [ A^T C A + second variation ]. In the node loop every rotation node i gets two 9 x 3 matrices a_i and b_i such
-/// that its blocks are H_ij = a_i^T w_j + w_i^T a_j, w_j = 1/2 M a_j + b_j; this rank-18 update is a third of all work and is done point by point in register
+/// What the solver needs of an element is sum_p [ A^T C A + second variation ]. In the node loop every rotation node i gets two 9 x 3 matrices a_i
+/// and b_i such
+/// that its blocks are H_ij = a_i^T w_j + w_i^T a_j, w_j = 1/2 M a_j + b_j; this rank-18 update is a third of all work and is done point by point in
+/// register
 /// blocks of 3 x 6. The blocks with deformation nodes need only a few numbers per point and are summed over a chunk of points at its end.
 
 #include <limits>
@@ -242,7 +244,8 @@ void mixed_blocks(const double* dm, int nm, int count, const T* forces, int stri
     for (int k = 0; k < 9; ++k) store(sum[j][k], hessian + ((3 * j + k / 3) * n + k % 3) * lanes<T>);
 }
 
-/// Sums of the blocks of a deformation node i with N consecutive nodes j. \param half  [point][direction of j][9]: second derivatives contracted with node i
+/// Sums of the blocks of a deformation node i with N consecutive nodes j. \param half  [point][direction of j][9]: second derivatives contracted with
+/// node i
 template <class T, int N>
 void deformation_blocks(const double* dm, int nm, int count, const T (*half)[2][9], bool fresh, double* hessian, int n) {
   T sum[N][9];

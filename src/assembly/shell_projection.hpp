@@ -3,7 +3,8 @@
 /// Projection interpolation of rotations for the shell kernel: Q(x) is the rotation closest to A = sum_i l_i R_i.
 ///
 /// With Z_i = Q^T R_i, S = Q^T A, B_b = Q^T d_b A, G = tr(S) I - S: the rates are G k_b = Ax(B_b), a nodal variation R_i [v_i] turns Q by
-/// G w = sum_i l_i D_i v_i with D_i = tr(Z_i) I - Z_i^T, and both are linear in the Z_i, which is what the adjoint below uses (docs/cosserat-kernel.md).
+/// G w = sum_i l_i D_i v_i with D_i = tr(Z_i) I - Z_i^T, and both are linear in the Z_i, which is what the adjoint below uses
+/// (docs/cosserat-kernel.md).
 
 #include <limits>
 
@@ -82,7 +83,8 @@ class ProjectionRule {
       const Sym3<T> c = cofactor(g);
       const T det = g.xx * c.xx + g.xy * c.xy + g.xz * c.xz;
       inverse_ = scaled(T(1.0) / det, c);
-      // G positive definite (it is 2 I where all rotations agree): then Q is the closest rotation, because tr(Q^T A) is a Rayleigh quotient of the quaternion.
+      // G positive definite (it is 2 I where all rotations agree): then Q is the closest rotation, because tr(Q^T A) is a Rayleigh quotient of the
+      // quaternion.
       ok = ok & (g.xx > T(0.0)) & (c.zz > T(1e-12)) & (det > T(1e-6) * c.zz);
       if (all(ok)) break;
       if (attempt == 0) {
@@ -215,7 +217,8 @@ class ProjectionRule {
     return {{one - (yy + zz), xy - wz, xz + wy, xy + wz, one - (xx + zz), yz - wx, xz - wy, yz + wx, one - (xx + yy)}};
   }
 
-  /// One Newton step for the maximum of tr(Q^T A); returns the square of its angle. The quaternion need not have length one (and its length grows with every
+  /// One Newton step for the maximum of tr(Q^T A); returns the square of its angle. The quaternion need not have length one (and its length grows
+  /// with every
   /// step): all is done with |q|^2 Q, and the step does not feel the factor.
   static T newton_step(const T (&a)[9], Quaternion<T>& q) {
     const T ww = q[0] * q[0], xx = q[1] * q[1], yy = q[2] * q[2], zz = q[3] * q[3];

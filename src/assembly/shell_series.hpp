@@ -2,7 +2,8 @@
 /// \file
 /// Logarithm of rotations for the shell kernel, as polynomials: the same few multiplications in every lane, no branch, no cancellation.
 ///
-/// Both functions are entire near the interval of interest, so that interpolation at Chebyshev nodes converges geometrically; the coefficients were computed with
+/// Both functions are entire near the interval of interest, so that interpolation at Chebyshev nodes converges geometrically; the coefficients were
+/// computed with
 /// 60 digits. The errors stated are those of the polynomials in double precision.
 
 #include <array>
@@ -18,7 +19,8 @@ T horner(const std::array<double, N>& a, const T& x) {
   return y;
 }
 
-/// theta / sin(theta/2) = 2 sum_k 2^k k!^2 / (2k+1)! u^k as a function of u = 1 - cos(theta/2) in [0, 1], relative error 2e-16: the rotation vector of the unit
+/// theta / sin(theta/2) = 2 sum_k 2^k k!^2 / (2k+1)! u^k as a function of u = 1 - cos(theta/2) in [0, 1], relative error 2e-16: the rotation vector
+/// of the unit
 /// quaternion (c, s), c >= 0, is s times this.
 template <class T>
 T angle_over_sine(const T& c) {
@@ -46,7 +48,8 @@ T angle_over_sine(const T& c) {
   return horner(a, T(1.0) - c);
 }
 
-/// beta(tau) = (1 - x cot x) / tau with x = theta/2, tau = theta^2 <= pi^2, which is the coefficient of [theta]^2 in the inverse Jacobians of the exponential map:
+/// beta(tau) = (1 - x cot x) / tau with x = theta/2, tau = theta^2 <= pi^2, which is the coefficient of [theta]^2 in the inverse Jacobians of the
+/// exponential map:
 /// a polynomial in tau / pi^2. Relative errors 1e-16 of beta, 1e-16 of its first and 1e-13 of its second derivative.
 inline constexpr double pi2 = 9.869604401089358;
 inline constexpr std::array<double, 17> beta_coefficients = {

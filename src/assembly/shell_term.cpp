@@ -74,7 +74,8 @@ struct Constants {
   }
 };
 
-/// Whether the upper triangle of a symmetric 4 x 4 matrix is that of a positive semidefinite one, up to rounding: Cholesky of the matrix scaled to a unit
+/// Whether the upper triangle of a symmetric 4 x 4 matrix is that of a positive semidefinite one, up to rounding: Cholesky of the matrix scaled to a
+/// unit
 /// diagonal (so that one tolerance fits stretching and bending) and shifted a little.
 bool semidefinite(const std::array<double, 10>& upper) {
   double a[4][4], scale[4];

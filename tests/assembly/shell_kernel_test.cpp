@@ -200,7 +200,8 @@ TEST(ShellKernel, AgreesWithJetsInEveryLane) {
 }
 
 TEST(ShellKernel, IsExactForLargeRotationsWithinAnElement) {
-  // Two rotations of a linear triangle around one axis, close to the limit of either rule: half a turn between neighbours for the projection at the midpoint,
+  // Two rotations of a linear triangle around one axis, close to the limit of either rule: half a turn between neighbours for the projection at the
+  // midpoint,
   // 90 degrees from the mean for the geodesic rule.
   for (Rule rule : {Rule::projection, Rule::geodesic})
     for (double angle : {1.0, 2.0, 2.9}) {
@@ -217,7 +218,8 @@ TEST(ShellKernel, IsExactForLargeRotationsWithinAnElement) {
 }
 
 TEST(ShellKernel, FindsTheClosestRotationWhereNewtonsMethodFails) {
-  // Rotations of a radian per axis and more make Newton's method fail in about one point of ten; the energy must be that of the eigenvector's rotation.
+  // Rotations of a radian per axis and more make Newton's method fail in about one point of ten; the energy must be that of the eigenvector's
+  // rotation.
   std::mt19937 generator(3);
   int points = 0;
   for (int sample = 0; sample < 40; ++sample) {

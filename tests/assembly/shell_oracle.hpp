@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// The energy of one Cosserat shell element, written straight from the formulas over any scalar (double, Jet, adouble): rotation matrices, Heron's iteration
-/// or the Riemannian mean with their derivatives, strain tensors, the density in tensors. Shares nothing with the fast kernel but the tables of the basis.
+/// The energy of one Cosserat shell element, written straight from the formulas over any scalar (double, Jet, adouble): rotation matrices, Heron's
+/// iteration
+/// or the Riemannian mean with their derivatives, strain tensors, the density in tensors. Shares nothing with the fast kernel but the tables of the
+/// basis.
 
 #include <array>
 #include <cmath>
@@ -144,7 +146,8 @@ Vec3<S> log_of(Vec<S, 4> p) {
   return {{series * p[1], series * p[2], series * p[3]}};
 }
 
-/// Inverse of the right Jacobian of the exponential map: d log(exp(theta) exp(v)) / dv at v = 0 (Chirikjian 2012), to all orders by the cotangent series.
+/// Inverse of the right Jacobian of the exponential map: d log(exp(theta) exp(v)) / dv at v = 0 (Chirikjian 2012), to all orders by the cotangent
+/// series.
 template <class S>
 Mat3<S> inverse_right_jacobian(const Vec3<S>& t) {
   const S tau = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
@@ -277,7 +280,8 @@ S energy(const Element& element, const S* x) {
   return energy_parts(element, m, q).total();
 }
 
-/// Random curved element: nodes of a bent and sheared cell with random perturbations, random rotations of about `spread` radian per axis around a common one.
+/// Random curved element: nodes of a bent and sheared cell with random perturbations, random rotations of about `spread` radian per axis around a
+/// common one.
 inline Element random_element(CellKind kind, int m_order, int r_order, std::mt19937& generator, double spread = 0.3, int degree = 5) {
   std::normal_distribution<double> normal;
   const auto vector = [&](double scale) { return Vec3<double>{{scale * normal(generator), scale * normal(generator), scale * normal(generator)}}; };
@@ -353,9 +357,8 @@ inline BatchResult evaluate(const Element& like, const Lanes& lanes, Want want) 
   const auto n = static_cast<std::size_t>(like.unknowns());
   out.gradient.resize(n * native_width);
   out.hessian.resize(n * n * native_width);
-  shell::kernel(like.rule, want)(
-      like.tables, lanes.points.data(), lanes.m.data(), lanes.q.data(),
-      {out.energy.data(), out.trouble.data(), out.gradient.data(), out.hessian.data()});
+  shell::kernel(like.rule, want)(like.tables, lanes.points.data(), lanes.m.data(), lanes.q.data(),
+                                 {out.energy.data(), out.trouble.data(), out.gradient.data(), out.hessian.data()});
   return out;
 }
 

@@ -195,7 +195,8 @@ TEST(ShellTerm, GivesTheExactEnergyOfAStripRolledIntoACylinder) {
 
 TEST(ShellTerm, GivesTheExactEnergyOfACylinderThatIsWidenedAndClosed) {
   // The sector phi -> alpha phi, r -> r' (benchmarks of the theory): s = r' alpha/r, kappa = (alpha - 1)/r, chi = (alpha - s)/r, density
-  // h M (s-1)^2 + h^3/12 M chi^2 + h^5/80 (mu + lambda/2) (chi/r)^2 + C kappa^2 (h + h^3/(12 r^2) + h^5/(80 r^4)), M = mu + lambda mu/(lambda + 2 mu).
+  // h M (s-1)^2 + h^3/12 M chi^2 + h^5/80 (mu + lambda/2) (chi/r)^2 + C kappa^2 (h + h^3/(12 r^2) + h^5/(80 r^4)), M = mu + lambda mu/(lambda + 2
+  // mu).
   // The stress-free cylinder is given as a function on a flat sheet, as the interpolant of order 3.
   const double r = 0.8, r1 = 1.0, alpha = 1.2, angle = 1.5, height = 0.4;
   for (const std::string shape : {"triangle", "quadrilateral"}) {
@@ -227,7 +228,8 @@ TEST(ShellTerm, GivesTheExactEnergyOfACylinderThatIsWidenedAndClosed) {
 }
 
 TEST(ShellTerm, GivesTheExactEnergyOfAnInflatedSphere) {
-  // m = s x, R = I: E = (s - 1) a, K = 0, b = -a/r. Density (s-1)^2 [(h - h^3/(12 r^2)) + (h^3/12 - h^5/(80 r^2))/r^2] (2 mu + 4 lambda mu/(lambda + 2 mu))
+  // m = s x, R = I: E = (s - 1) a, K = 0, b = -a/r. Density (s-1)^2 [(h - h^3/(12 r^2)) + (h^3/12 - h^5/(80 r^2))/r^2] (2 mu + 4 lambda mu/(lambda +
+  // 2 mu))
   // + (s-1)^2 h^5/(80 r^4) (2 mu + 2 lambda); with the refined form the last bracket is the same as the first.
   const double r = 1.5, stretch = 1.1;
   for (const std::string coupling : {"default", "birsan-2021"}) {

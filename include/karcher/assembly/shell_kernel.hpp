@@ -2,7 +2,8 @@
 /// \file
 /// The fast kernel of the curved Cosserat shell: energy, gradient and Hessian of native_width elements at once, in closed form.
 ///
-/// Data of all lanes stand side by side ("entry-major, lane-minor": entry e of lane l at e * native_width + l), aligned to 64 bytes. Unknowns of an element:
+/// Data of all lanes stand side by side ("entry-major, lane-minor": entry e of lane l at e * native_width + l), aligned to 64 bytes. Unknowns of an
+/// element:
 /// the deformation nodes (three coordinates each), then the rotation nodes (v of R exp([v])). The derivation is docs/cosserat-kernel.md.
 
 #include <array>

@@ -8,8 +8,10 @@
 
 namespace karcher {
 
-/// Fields: deformation (R3), rotation (SO3, either rule), each of its own order 1..3, on triangles and quadrilaterals in any mixture. The deformation may live
-/// on a larger region, for instance the solid whose boundary the shell covers. Parameters and choices: cosserat_shell_info(). Expressions among the parameters
+/// Fields: deformation (R3), rotation (SO3, either rule), each of its own order 1..3, on triangles and quadrilaterals in any mixture. The deformation
+/// may live
+/// on a larger region, for instance the solid whose boundary the shell covers. Parameters and choices: cosserat_shell_info(). Expressions among the
+/// parameters
 /// are evaluated at the quadrature points, at the place on the mesh (not on the stress-free configuration, where that is another one).
 /// Parts: "membrane" (Wm(E)), "bending" (everything with E b + c K or the mixed strain), "curvature" (Wcurv).
 /// \throws InputError for fields that do not fit, parameters out of range or not finite, a degenerate reference surface, or a thickness h with

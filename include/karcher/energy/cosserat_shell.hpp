@@ -2,8 +2,10 @@
 /// \file
 /// The curved six-parameter Cosserat shell with all terms up to h^5.
 ///
-/// Sources: Birsan, Ghiba, Martin, Neff, "Refined dimensional reduction for isotropic elastic Cosserat shells with initial curvature", Math. Mech. Solids 24
-/// (2019); Birsan, "Derivation of a refined six-parameter shell model", Math. Mech. Solids 26 (2021); Nebel, Sander, Birsan, Neff, CMAME 416 (2023) 116309.
+/// Sources: Birsan, Ghiba, Martin, Neff, "Refined dimensional reduction for isotropic elastic Cosserat shells with initial curvature", Math. Mech.
+/// Solids 24
+/// (2019); Birsan, "Derivation of a refined six-parameter shell model", Math. Mech. Solids 26 (2021); Nebel, Sander, Birsan, Neff, CMAME 416 (2023)
+/// 116309.
 ///
 ///   E = sum_a Q^T d_a m (x) a^a - a           K = sum_a axl(Q^T d_a Q) (x) a^a         a = sum_a a_a (x) a^a
 ///   b = - sum_a d_a n_0 (x) a^a               c = sqrt(det a_ab) (a^1 (x) a^2 - a^2 (x) a^1)
@@ -111,7 +113,8 @@ struct ShellParts {
   bool membrane = true, bending = true, curvature = true;
 };
 
-/// W = 1/2 z^T C z in the orthonormal principal frame (t_1, t_2, n_0) of the reference surface. With E_cb, K_cb (component c, direction b) the matrix C falls
+/// W = 1/2 z^T C z in the orthonormal principal frame (t_1, t_2, n_0) of the reference surface. With E_cb, K_cb (component c, direction b) the matrix
+/// C falls
 /// into two 4 x 4 blocks and four numbers:
 ///   a: (E11, E22, K21, K12)      b: (E12, E21, K22, K11)      s: E31, E32, K31, K32
 /// Blocks are stored as the upper triangle by rows.

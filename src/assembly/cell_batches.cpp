@@ -39,7 +39,8 @@ CellBatches::CellBatches(const TermInput& input, const std::function<int(CellKin
 
   for (const auto& [kind, cells] : by_kind) {
     const auto chosen = input.quadrature_degree.find(kind);
-    const KindData& data = kinds_.emplace_back(make_kind(kind, input, chosen != input.quadrature_degree.end() ? chosen->second : default_degree(kind)));
+    const KindData& data =
+        kinds_.emplace_back(make_kind(kind, input, chosen != input.quadrature_degree.end() ? chosen->second : default_degree(kind)));
     const int dim = dimension(kind);
     for (std::size_t begin = 0; begin < cells.size(); begin += W) {
       Batch& batch = batches_.emplace_back();

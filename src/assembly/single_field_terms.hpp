@@ -24,7 +24,8 @@ std::unique_ptr<Term> with_rule(const TermInput& input, Make make) {
     if constexpr (HasProjection<M>)
       return make.template operator()<ProjectionInterpolation<M, D, NativeScalar>>();
     else
-      throw InputError(fmt::format("Field \"{}\": {} has no projection from its ambient space; use interpolation = \"geodesic\".", field.name, M::name));
+      throw InputError(
+          fmt::format("Field \"{}\": {} has no projection from its ambient space; use interpolation = \"geodesic\".", field.name, M::name));
   }
 }
 
@@ -36,7 +37,8 @@ std::unique_ptr<Term> with_dimension(const TermInput& input, Make make) {
     if (input.region.dim == D) term = make.template operator()<D>();
   };
   (attempt.template operator()<Ds>(), ...);
-  if (!term) throw InputError(fmt::format("Region \"{}\" has dimension {}, for which this energy is not defined.", input.region.name, input.region.dim));
+  if (!term)
+    throw InputError(fmt::format("Region \"{}\" has dimension {}, for which this energy is not defined.", input.region.name, input.region.dim));
   return term;
 }
 

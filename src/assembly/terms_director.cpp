@@ -1,7 +1,7 @@
+#include "director_terms.hpp"
 #include "karcher/energy/chiral_skyrmion.hpp"
 #include "karcher/energy/frank_oseen.hpp"
 #include "karcher/manifold/sphere.hpp"
-#include "director_terms.hpp"
 #include "single_field_terms.hpp"
 
 namespace karcher {
@@ -18,7 +18,8 @@ std::unique_ptr<Term> make_chiral_skyrmion_term(TermInput input) {
 std::unique_ptr<Term> make_frank_oseen_term(TermInput input) {
   return with_dimension<2, 3>(input, [&]<int D>() {
     return with_rule<Sphere<2>, D>(input, [&]<class I>() -> std::unique_ptr<Term> {
-      return std::make_unique<DensityTerm<FrankOseenModel, D, I>>("frank-oseen", input, FrankOseenModel{}, std::vector<std::string>{"K1", "K2", "K3"});
+      return std::make_unique<DensityTerm<FrankOseenModel, D, I>>("frank-oseen", input, FrankOseenModel{},
+                                                                  std::vector<std::string>{"K1", "K2", "K3"});
     });
   });
 }

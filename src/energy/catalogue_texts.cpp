@@ -37,7 +37,8 @@ EnergyInfo FrankOseenModel::info() {
   info.description = "Nematic liquid crystal: 1/2 [K1 (div n)^2 + K2 (n.curl n)^2 + K3 |n x curl n|^2].";
   info.dimensions = {2, 3};
   info.fields = {{"field", {"S2"}, "director"}};
-  info.parameters = {{"K1", "force", "splay constant", {}, 0.0}, {"K2", "force", "twist constant", {}, 0.0}, {"K3", "force", "bend constant", {}, 0.0}};
+  info.parameters = {
+      {"K1", "force", "splay constant", {}, 0.0}, {"K2", "force", "twist constant", {}, 0.0}, {"K3", "force", "bend constant", {}, 0.0}};
   return info;
 }
 
@@ -47,9 +48,9 @@ EnergyInfo l2_distance_info() {
   info.description = "weight/2 dist(u, target)^2 with the Riemannian distance of the manifold.";
   info.dimensions = {0, 1, 2, 3};
   info.fields = {{"field", every_manifold, "the map"}};
-  info.parameters = {{"weight", "1", "factor", 1.0, 0.0},
-                     {"target", "1", "target map, written like a field's initial value", {}, -std::numeric_limits<double>::infinity(), true,
-                      Parameter::ambient}};
+  info.parameters = {
+      {"weight", "1", "factor", 1.0, 0.0},
+      {"target", "1", "target map, written like a field's initial value", {}, -std::numeric_limits<double>::infinity(), true, Parameter::ambient}};
   return info;
 }
 
@@ -61,7 +62,8 @@ std::vector<EnergyInfo> dead_load_infos() {
     info.description = description;
     info.dimensions = std::move(dimensions);
     info.fields = {{"field", {"R1", "R2", "R3", "S1", "S2", "S3"}, "the field on which the load works"}};
-    info.parameters = {{"value", unit, "load in ambient coordinates of the field", {}, -std::numeric_limits<double>::infinity(), true, Parameter::ambient}};
+    info.parameters = {
+        {"value", unit, "load in ambient coordinates of the field", {}, -std::numeric_limits<double>::infinity(), true, Parameter::ambient}};
     infos.push_back(std::move(info));
   };
   add("volume", {1, 2, 3}, "force/measure", "Dead load per reference volume (per area of a shell, per length of a rod): - int f.u");

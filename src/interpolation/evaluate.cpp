@@ -17,8 +17,8 @@ std::map<std::string, FieldEvaluator> table_of() {
 }
 
 std::map<std::string, FieldEvaluator>& evaluators() {
-  static std::map<std::string, FieldEvaluator> table = table_of<Euclidean<1>, Euclidean<2>, Euclidean<3>, Sphere<1>, Sphere<2>, Sphere<3>, Rotation, Unitary,
-                                                                Spd<2>, Spd<3>, Hyperbolic<2>, Hyperbolic<3>>();
+  static std::map<std::string, FieldEvaluator> table = table_of<Euclidean<1>, Euclidean<2>, Euclidean<3>, Sphere<1>, Sphere<2>, Sphere<3>, Rotation,
+                                                                Unitary, Spd<2>, Spd<3>, Hyperbolic<2>, Hyperbolic<3>>();
   return table;
 }
 
@@ -29,7 +29,8 @@ void register_evaluator(const std::string& manifold, FieldEvaluator evaluator) {
 FieldAtPoint evaluate_field(const ManifoldOps& manifold, Rule rule, std::span<const double> nodes, std::span<const double> l,
                             std::span<const std::array<double, 3>> dl) {
   const auto found = evaluators().find(manifold.name);
-  if (found == evaluators().end()) throw InputError("No interpolation is registered for the manifold " + manifold.name + " (see register_evaluator).");
+  if (found == evaluators().end())
+    throw InputError("No interpolation is registered for the manifold " + manifold.name + " (see register_evaluator).");
   const auto function = rule == Rule::projection ? found->second.projection : found->second.geodesic;
   if (!function) throw InputError(manifold.name + " has no projection from its ambient space; use interpolation = \"geodesic\".");
   return function(nodes, l, dl);

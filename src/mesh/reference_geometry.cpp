@@ -38,7 +38,8 @@ CellFrame cell_frame(const GeometryJet& g, int dim) {
   CellFrame f;
   const auto degenerate = [&](double measure, double scale) {
     if (!(measure > 1e-14 * scale) || !std::isfinite(measure))
-      throw InputError(fmt::format("A cell is degenerate (its map has measure {:.3g}) at ({:.6g}, {:.6g}, {:.6g}).", measure, g.x[0], g.x[1], g.x[2]));
+      throw InputError(
+          fmt::format("A cell is degenerate (its map has measure {:.3g}) at ({:.6g}, {:.6g}, {:.6g}).", measure, g.x[0], g.x[1], g.x[2]));
   };
   if (dim == 0) {
     f.measure = 1;

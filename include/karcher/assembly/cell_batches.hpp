@@ -17,22 +17,22 @@ namespace karcher {
 /// Basis functions of one field on one kind of cell at the quadrature points.
 struct ShapeTable {
   int nodes = 0;
-  std::vector<double> value;                        ///< [point * nodes + node]
-  std::vector<std::array<double, 3>> gradient;      ///< the same, derivatives in the reference coordinates
+  std::vector<double> value;                    ///< [point * nodes + node]
+  std::vector<std::array<double, 3>> gradient;  ///< the same, derivatives in the reference coordinates
 };
 
 struct KindData {
   CellKind kind;
   const Quadrature* quadrature = nullptr;
-  std::vector<ShapeTable> shapes;   ///< one for each field of the term
+  std::vector<ShapeTable> shapes;  ///< one for each field of the term
   std::vector<LocalBlock> blocks;
-  std::vector<int> first_block;     ///< of each field of the term
+  std::vector<int> first_block;  ///< of each field of the term
   int unknowns = 0;
 };
 
 /// Geometry of a batch at a quadrature point, lane by lane.
 struct BatchPoint {
-  NativeScalar weight{};                       ///< quadrature weight times measure
+  NativeScalar weight{};                                  ///< quadrature weight times measure
   std::array<std::array<NativeScalar, 3>, 3> to_frame{};  ///< d_a = sum_b to_frame[a][b] d/dxi_b
   Vec3<NativeScalar> x;
 };

@@ -64,7 +64,10 @@ class DensityTerm : public Term {
  public:
   /// \param parameter_keys  keys of input.parameters in the order in which Model::at expects them
   DensityTerm(std::string name, TermInput input, Model model, std::vector<std::string> parameter_keys)
-      : name_(std::move(name)), model_(std::move(model)), fields_(input.fields), batches_(input, [&](CellKind kind) { return default_degree(input, kind); }) {
+      : name_(std::move(name)),
+        model_(std::move(model)),
+        fields_(input.fields),
+        batches_(input, [&](CellKind kind) { return default_degree(input, kind); }) {
     for (const auto& key : parameter_keys) parameters_.push_back(input.parameters.at(key));
     values_.resize(batches_.point_count() * parameters_.size());
     compute_parameters(input.t, true);
@@ -213,7 +216,8 @@ class DensityTerm : public Term {
         energy += w.v;
         for (int i = 0; i < L; ++i) covector[i] = w.gradient(i);
         (add_rows<f>(states, kind, begin, w, hessian, all), ...);
-        (std::get<f>(states).interpolation.add_second_variation(std::get<f>(states).nodes.data(), part<f>(covector), std::get<f>(second).data()), ...);
+        (std::get<f>(states).interpolation.add_second_variation(std::get<f>(states).nodes.data(), part<f>(covector), std::get<f>(second).data()),
+         ...);
       }
       (add_gradient<f>(states, kind, begin, covector, gradient), ...);
     }
@@ -227,10 +231,10 @@ class DensityTerm : public Term {
         lane_defined = defined;
       else
         lane_defined = defined[lane];
-      out.trouble[l] = !lane_defined                ? Trouble::undefined_interpolation
+      out.trouble[l] = !lane_defined               ? Trouble::undefined_interpolation
                        : std::isinf(out.energy[l]) ? Trouble::infinite_energy
                        : std::isnan(out.energy[l]) ? Trouble::not_finite
-                                                    : Trouble::none;
+                                                   : Trouble::none;
     }
     store(gradient, out.gradient);
     store(hessian, out.hessian);
@@ -298,12 +302,13 @@ class DensityTerm : public Term {
 
   /// A_i^T C A_j for the rows of field f and the columns of the fields from f on.
   template <std::size_t f, std::size_t... g>
-  static void add_rows(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w, std::vector<T>& hessian,
-                       std::index_sequence<g...>) {
+  static void add_rows(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w,
+                       std::vector<T>& hessian, std::index_sequence<g...>) {
     (add_pair<f, g>(states, kind, begin, w, hessian), ...);
   }
   template <std::size_t f, std::size_t g>
-  static void add_pair(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w, std::vector<T>& hessian) {
+  static void add_pair(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w,
+                       std::vector<T>& hessian) {
     if constexpr (g >= f) {
       constexpr int kf = M<f>::dim, kg = M<g>::dim;
       const auto n = static_cast<std::size_t>(kind.unknowns);

@@ -226,11 +226,7 @@ class DensityTerm : public Term {
     for (int lane = 0; lane < W; ++lane) {
       const auto l = static_cast<std::size_t>(lane);
       out.energy[l] = karcher::lane(energy, lane);
-      bool lane_defined;
-      if constexpr (W == 1)
-        lane_defined = defined;
-      else
-        lane_defined = defined[lane];
+      const bool lane_defined = karcher::lane(select(defined, T(1.0), T(0.0)), lane) > 0;
       out.trouble[l] = !lane_defined               ? Trouble::undefined_interpolation
                        : std::isinf(out.energy[l]) ? Trouble::infinite_energy
                        : std::isnan(out.energy[l]) ? Trouble::not_finite

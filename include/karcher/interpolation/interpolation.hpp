@@ -52,7 +52,7 @@ Vec<U, N> combination(const Mat<T, N, K>& e, const Vec<U, K>& w) {
   Vec<U, N> r;
   for (int c = 0; c < N; ++c) {
     r[c] = scaled(w[0], e(c, 0));
-    for (int i = 1; i < K; ++i) r[c] += scaled(w[i], e(c, i));
+    for (int i = 1; i < K; ++i) add_scaled(r[c], w[i], e(c, i));
   }
   return r;
 }

@@ -120,10 +120,10 @@ struct Spd {
       Mat<S, N, N> y = cast<S>(lower_congruence(inverse_, matrix(p) - q_)), mx;
       for (int i = 0; i < N; ++i)
         for (int j = 0; j < N; ++j)
-          for (int k = 0; k <= i; ++k) mx(i, j) += scaled(change(k, j), m(i, k));
+          for (int k = 0; k <= i; ++k) add_scaled(mx(i, j), change(k, j), m(i, k));
       for (int i = 0; i < N; ++i)
         for (int j = 0; j <= i; ++j) {
-          for (int k = 0; k <= j; ++k) y(i, j) += scaled(mx(i, k), m(j, k));
+          for (int k = 0; k <= j; ++k) add_scaled(y(i, j), mx(i, k), m(j, k));
           y(j, i) = y(i, j);
         }
       return theta(p, y);
@@ -136,7 +136,7 @@ struct Spd {
       Mat<S, N, N> d = whole_;
       for (int i = 0; i < N; ++i)
         for (int j = i; j < N; ++j) {
-          for (int k = 0; k < N; ++k) d(i, j) += z(i, k) * half_(k, j);
+          for (int k = 0; k < N; ++k) add_product(d(i, j), z(i, k), half_(k, j));
           d(j, i) = d(i, j);
         }
       return symmetric_coordinates(relative_log(d, [&] { return lower_congruence(inverse_, matrix(p)); }));

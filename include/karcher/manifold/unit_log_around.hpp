@@ -42,9 +42,9 @@ class UnitVectorAround {
     S alpha = scaled(c0, sign * dot(q_, p));
     Vec<S, K> beta;
     for (int i = 0; i < K; ++i) {
-      alpha += scaled(v[i], a1[i]);
+      add_scaled(alpha, v[i], a1[i]);
       beta[i] = scaled(c0, b[i]);
-      for (int j = 0; j < K; ++j) beta[i] += scaled(v[j], b1(i, j));
+      for (int j = 0; j < K; ++j) add_scaled(beta[i], v[j], b1(i, j));
     }
     return theta(alpha, beta);
   }

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "karcher/math/jet.hpp"
+#include "karcher/math/tensor.hpp"
 
 namespace karcher {
 
@@ -63,7 +64,10 @@ struct Dual {
   friend Dual operator*(const Dual& a, const Dual& b) {
     Dual r;
     r.v = a.v * b.v;
-    for (std::size_t i = 0; i < D; ++i) r.d[i] = a.v * b.d[i] + a.d[i] * b.v;
+    for (std::size_t i = 0; i < D; ++i) {
+      r.d[i] = a.v * b.d[i];
+      add_product(r.d[i], a.d[i], b.v);
+    }
     return r;
   }
   friend Dual operator/(const Dual& a, const Dual& b) {
@@ -72,6 +76,16 @@ struct Dual {
   }
   friend Dual operator/(double a, const Dual& b) { return Dual(a) / b; }
 };
+
+/// s += a b.
+template <class U, int D>
+void add_product(Dual<U, D>& s, const Dual<U, D>& a, const Dual<U, D>& b) {
+  add_product(s.v, a.v, b.v);
+  for (std::size_t i = 0; i < D; ++i) {
+    add_product(s.d[i], a.v, b.d[i]);
+    add_product(s.d[i], a.d[i], b.v);
+  }
+}
 
 /// f(x) where f has the value f0 and the derivative f1 at x.v (chain rule).
 template <class U, int D>

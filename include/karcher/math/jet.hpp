@@ -75,6 +75,8 @@ struct Jet {
   friend Jet operator*(Jet a, double b) { return a.scale(T(b)); }
   friend Jet operator*(double b, Jet a) { return a.scale(T(b)); }
   friend Jet operator/(Jet a, double b) { return a.scale(T(1.0 / b)); }
+  friend Jet operator*(Jet a, const T& b) requires(!std::is_same_v<T, double>) { return a.scale(b); }
+  friend Jet operator*(const T& b, Jet a) requires(!std::is_same_v<T, double>) { return a.scale(b); }
   friend Jet operator*(const Jet& a, const Jet& b) {
     Jet r;
     r.v = a.v * b.v;
@@ -100,6 +102,17 @@ struct Jet {
     return *this;
   }
 };
+
+/// s += a b.
+template <class T, int N>
+void add_product(Jet<T, N>& s, const Jet<T, N>& a, const Jet<T, N>& b) {
+  s.v += a.v * b.v;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    s.g[i] += a.v * b.g[i] + b.v * a.g[i];
+    for (std::size_t j = i; j < N; ++j, ++k) s.h[k] += a.v * b.h[k] + b.v * a.h[k] + (a.g[i] * b.g[j] + a.g[j] * b.g[i]);
+  }
+}
 
 /// f(x) where f has the value f0 and the derivatives f1, f2 at x.v (chain rule).
 template <class T, int N>

@@ -105,6 +105,21 @@ Dual<U, D> scaled(Dual<U, D> x, const Base<U>& s) {
   return x;
 }
 
+/// r += s x for a plain number s.
+template <class T>
+requires is_base<T>
+void add_scaled(T& r, const T& x, const T& s) { r += x * s; }
+template <class T, int N>
+void add_scaled(Jet<T, N>& r, const Jet<T, N>& x, const T& s) {
+  r.v += x.v * s;
+  for (std::size_t i = 0; i < x.g.size(); ++i) r.g[i] += x.g[i] * s;
+  for (std::size_t i = 0; i < x.h.size(); ++i) r.h[i] += x.h[i] * s;
+}
+template <class U, int D>
+void add_scaled(Dual<U, D>& r, const Dual<U, D>& x, const Base<U>& s) {
+  add_scaled(r.v, x.v, s);
+  for (std::size_t i = 0; i < D; ++i) add_scaled(r.d[i], x.d[i], s);
+}
 /// x with plain value v and the derivatives of x.
 template <class T, int N>
 void set_value(Jet<T, N>& x, const T& v) {

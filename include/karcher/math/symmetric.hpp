@@ -50,7 +50,7 @@ Mat<T, N, N> lower_inverse(const Mat<T, N, N>& l) {
   for (int j = 0; j < N; ++j)
     for (int i = j + 1; i < N; ++i) {
       T s = l(i, j) * m(j, j);
-      for (int k = j + 1; k < i; ++k) s += l(i, k) * m(k, j);
+      for (int k = j + 1; k < i; ++k) add_product(s, l(i, k), m(k, j));
       m(i, j) = -(s * m(i, i));
     }
   return m;
@@ -63,13 +63,13 @@ Mat<T, N, N> lower_congruence(const Mat<T, N, N>& l, const Mat<T, N, N>& s) {
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       T t = l(i, 0) * s(0, j);
-      for (int k = 1; k <= i; ++k) t += l(i, k) * s(k, j);
+      for (int k = 1; k <= i; ++k) add_product(t, l(i, k), s(k, j));
       ls(i, j) = t;
     }
   for (int i = 0; i < N; ++i)
     for (int j = 0; j <= i; ++j) {
       T t = ls(i, 0) * l(j, 0);
-      for (int k = 1; k <= j; ++k) t += ls(i, k) * l(j, k);
+      for (int k = 1; k <= j; ++k) add_product(t, ls(i, k), l(j, k));
       r(i, j) = t;
       r(j, i) = t;
     }
@@ -277,13 +277,13 @@ Mat<X, N, N> apply(const Mat<X, N, N>& s, const Mat<Base<X>, N, N>& v, const Vec
     for (int i = 0; i < N; ++i)
       for (int j = 0; j < N; ++j) {
         X t = scaled(s(i, 0), v(0, j));
-        for (int k = 1; k < N; ++k) t += scaled(s(i, k), v(k, j));
+        for (int k = 1; k < N; ++k) add_scaled(t, s(i, k), v(k, j));
         sv(i, j) = t;
       }
     for (int i = 0; i < N; ++i)
       for (int j = i; j < N; ++j) {
         X t = scaled(sv(0, j), v(0, i));
-        for (int k = 1; k < N; ++k) t += scaled(sv(k, j), v(k, i));
+        for (int k = 1; k < N; ++k) add_scaled(t, sv(k, j), v(k, i));
         set_value(t, T(0.0));
         e(i, j) = t;
         e(j, i) = t;
@@ -310,7 +310,7 @@ Mat<X, N, N> apply(const Mat<X, N, N>& s, const Mat<Base<X>, N, N>& v, const Vec
         if constexpr (order<X> >= 2)
           for (int k = 0; k < N; ++k) {
             e2[at(i, k, j)] = e(i, k) * e(k, j);
-            t += scaled(e2[at(i, k, j)], f3[at(i, k, j)]);
+            add_scaled(t, e2[at(i, k, j)], f3[at(i, k, j)]);
           }
         if (i == j) set_value(t, f[i]);
         g(i, j) = t;
@@ -336,8 +336,8 @@ Mat<X, N, N> apply(const Mat<X, N, N>& s, const Mat<Base<X>, N, N>& v, const Vec
           for (int l = 0; l < N; ++l) {
             const auto pair = [&](int k) -> const X& { return e2[i <= l ? at(i, k, l) : at(l, k, i)]; };
             X t = scaled(pair(0), fourth(i, 0, l, j));
-            for (int k = 1; k < N; ++k) t += scaled(pair(k), fourth(i, k, l, j));
-            g(i, j) += t * e(l, j);
+            for (int k = 1; k < N; ++k) add_scaled(t, pair(k), fourth(i, k, l, j));
+            add_product(g(i, j), t, e(l, j));
           }
     }
   }
@@ -347,13 +347,13 @@ Mat<X, N, N> apply(const Mat<X, N, N>& s, const Mat<Base<X>, N, N>& v, const Vec
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       X t = scaled(g(0, j), v(i, 0));
-      for (int k = 1; k < N; ++k) t += scaled(g(k, j), v(i, k));
+      for (int k = 1; k < N; ++k) add_scaled(t, g(k, j), v(i, k));
       vg(i, j) = t;
     }
   for (int i = 0; i < N; ++i)
     for (int j = i; j < N; ++j) {
       X t = scaled(vg(i, 0), v(j, 0));
-      for (int k = 1; k < N; ++k) t += scaled(vg(i, k), v(j, k));
+      for (int k = 1; k < N; ++k) add_scaled(t, vg(i, k), v(j, k));
       r(i, j) = t;
       r(j, i) = t;
     }

@@ -98,11 +98,17 @@ constexpr Mat<T, M, N>& operator-=(Mat<T, M, N>& a, const Mat<T, M, N>& b) {
   return a;
 }
 
+/// s += a b. Scalars with derivatives have their own, without temporaries, which are large there.
+template <class T>
+constexpr void add_product(T& s, const T& a, const T& b) {
+  s += a * b;
+}
+
 // Products.
 template <class T, int N>
 constexpr T dot(const Vec<T, N>& a, const Vec<T, N>& b) {
   T s = a[0] * b[0];
-  for (int i = 1; i < N; ++i) s += a[i] * b[i];
+  for (int i = 1; i < N; ++i) add_product(s, a[i], b[i]);
   return s;
 }
 template <class T, int N>
@@ -113,7 +119,7 @@ constexpr T norm2(const Vec<T, N>& a) {
 template <class T, int M, int N>
 constexpr T dot(const Mat<T, M, N>& a, const Mat<T, M, N>& b) {
   T s = a.e[0] * b.e[0];
-  for (std::size_t i = 1; i < a.e.size(); ++i) s += a.e[i] * b.e[i];
+  for (std::size_t i = 1; i < a.e.size(); ++i) add_product(s, a.e[i], b.e[i]);
   return s;
 }
 template <class T, int M, int N>
@@ -129,7 +135,7 @@ constexpr Vec<T, M> operator*(const Mat<T, M, N>& a, const Vec<T, N>& x) {
   Vec<T, M> y;
   for (int i = 0; i < M; ++i) {
     T s = a(i, 0) * x[0];
-    for (int j = 1; j < N; ++j) s += a(i, j) * x[j];
+    for (int j = 1; j < N; ++j) add_product(s, a(i, j), x[j]);
     y[i] = s;
   }
   return y;
@@ -140,7 +146,7 @@ constexpr Mat<T, M, N> operator*(const Mat<T, M, K>& a, const Mat<T, K, N>& b) {
   for (int i = 0; i < M; ++i)
     for (int j = 0; j < N; ++j) {
       T s = a(i, 0) * b(0, j);
-      for (int k = 1; k < K; ++k) s += a(i, k) * b(k, j);
+      for (int k = 1; k < K; ++k) add_product(s, a(i, k), b(k, j));
       c(i, j) = s;
     }
   return c;
@@ -158,7 +164,7 @@ constexpr Vec<T, N> transpose_times(const Mat<T, M, N>& a, const Vec<T, M>& x) {
   Vec<T, N> y;
   for (int j = 0; j < N; ++j) {
     T s = a(0, j) * x[0];
-    for (int i = 1; i < M; ++i) s += a(i, j) * x[i];
+    for (int i = 1; i < M; ++i) add_product(s, a(i, j), x[i]);
     y[j] = s;
   }
   return y;
@@ -170,7 +176,7 @@ constexpr Mat<T, M, N> transpose_times(const Mat<T, K, M>& a, const Mat<T, K, N>
   for (int i = 0; i < M; ++i)
     for (int j = 0; j < N; ++j) {
       T s = a(0, i) * b(0, j);
-      for (int k = 1; k < K; ++k) s += a(k, i) * b(k, j);
+      for (int k = 1; k < K; ++k) add_product(s, a(k, i), b(k, j));
       c(i, j) = s;
     }
   return c;

@@ -19,7 +19,7 @@ std::unique_ptr<Term> make_frank_oseen_term(TermInput input) {
   return with_dimension<2, 3>(input, [&]<int D>() {
     return with_rule<Sphere<2>, D>(input, [&]<class I>() -> std::unique_ptr<Term> {
       return std::make_unique<DensityTerm<FrankOseenModel, D, I>>("frank-oseen", input, FrankOseenModel{},
-                                                                  std::vector<std::string>{"K1", "K2", "K3"});
+                                                                  std::vector<std::string>{"K1", "K2", "K3", "chi", "H[0]", "H[1]", "H[2]"});
     });
   });
 }

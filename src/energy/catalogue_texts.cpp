@@ -34,11 +34,14 @@ EnergyInfo ChiralSkyrmionModel::info() {
 EnergyInfo FrankOseenModel::info() {
   EnergyInfo info;
   info.type = "frank-oseen";
-  info.description = "Nematic liquid crystal: 1/2 [K1 (div n)^2 + K2 (n.curl n)^2 + K3 |n x curl n|^2].";
+  info.description = "Nematic liquid crystal in a magnetic field H: 1/2 [K1 (div n)^2 + K2 (n.curl n)^2 + K3 |n x curl n|^2 - chi (n.H)^2].";
   info.dimensions = {2, 3};
   info.fields = {{"field", {"S2"}, "director"}};
-  info.parameters = {
-      {"K1", "force", "splay constant", {}, 0.0}, {"K2", "force", "twist constant", {}, 0.0}, {"K3", "force", "bend constant", {}, 0.0}};
+  info.parameters = {{"K1", "force", "splay constant", {}, 0.0},
+                     {"K2", "force", "twist constant", {}, 0.0},
+                     {"K3", "force", "bend constant", {}, 0.0},
+                     {"chi", "force/(length H)^2", "anisotropy of the susceptibility", 0.0},
+                     {.name = "H", .unit = "H", .description = "magnetic field", .default_value = 0.0, .size = 3}};
   return info;
 }
 

@@ -32,10 +32,10 @@ const std::vector<Entry>& table() {
       {&manifold_ops<Sphere<3>>(), "the unit sphere of R^4"},
       {&manifold_ops<Rotation>(), "rotations of space; points are unit quaternions (w, x, y, z), q and -q the same; distance = angle of rotation"},
       {&manifold_ops<Unitary>(), "special unitary group as unit quaternions (w, x, y, z), q and -q different; metric of the unit sphere of R^4"},
-      {&manifold_ops<Spd<2>>(), "symmetric positive definite 2x2 matrices (4 entries by rows), affine-invariant metric; geodesic interpolation only"},
-      {&manifold_ops<Spd<3>>(), "symmetric positive definite 3x3 matrices (9 entries by rows), affine-invariant metric; geodesic interpolation only"},
-      {&manifold_ops<Hyperbolic<2>>(), "hyperbolic plane, hyperboloid x0^2 = 1 + x1^2 + x2^2, x0 > 0; geodesic interpolation only"},
-      {&manifold_ops<Hyperbolic<3>>(), "hyperbolic space, hyperboloid x0^2 = 1 + x1^2 + x2^2 + x3^2, x0 > 0; geodesic interpolation only"},
+      {&manifold_ops<Spd<2>>(), "symmetric positive definite 2x2 matrices (4 entries by rows), affine-invariant metric"},
+      {&manifold_ops<Spd<3>>(), "symmetric positive definite 3x3 matrices (9 entries by rows), affine-invariant metric"},
+      {&manifold_ops<Hyperbolic<2>>(), "hyperbolic plane, hyperboloid x0^2 = 1 + x1^2 + x2^2, x0 > 0"},
+      {&manifold_ops<Hyperbolic<3>>(), "hyperbolic space, hyperboloid x0^2 = 1 + x1^2 + x2^2 + x3^2, x0 > 0"},
   };
   return entries;
 }

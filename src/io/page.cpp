@@ -130,17 +130,19 @@ void write_page(const std::filesystem::path& directory, const PageLimits& limits
   if (!std::filesystem::exists(summary_file))
     throw InputError(fmt::format("The directory {} holds no results: {} is missing.", directory.string(), summary_file.string()));
   const Summary summary = read_summary(summary_file);
-  const Store store = read_store(directory / "report.data");
+  Store store = read_store(directory / "report.data");
 
   json notes = json::array();
   PageArrays arrays;
   json shape;
   if (!store.states.empty()) {
+    const std::string curve_in = draw_as_curves(store);
     const std::vector<int> states = thinned(store.states.size(), limits.states);
     if (states.size() < store.states.size()) notes.push_back(fmt::format("The page shows {} of {} states.", states.size(), store.states.size()));
     const PageShape cut = page_shape(store, states, limits.triangles);
     if (!cut.note.empty()) notes.push_back(cut.note);
     if (!cut.vertices.empty()) shape = shape_header(store, states, cut, limits.glyphs, arrays);
+    if (curve_in == "S2" && !shape.is_null()) shape["sphere"] = true;
   }
   if (store.cut_off) notes.push_back("The last stored state was cut off when the program ended, so it is missing here.");
 

@@ -277,6 +277,7 @@ void add_field(const Store& store, const std::string& name, const std::string& m
     fields.add_glyphs(triad ? "directors of " + name : "frame of " + name, "frame", name, 4, most_glyphs, [](const float* in, double* out) {
       for (int c = 0; c < 4; ++c) out[c] = in[(c + 1) % 4];
     });
+    if (store.deformation.empty()) fields.first_glyphs = fields.glyphs.empty() ? "" : fields.glyphs.back()["name"];
     if (!triad) return components(4);
     fields.add_vertex_field(name + ".angle", "rotation angle of " + name + " in degrees", "scalar", directors_of(store, name),
                             [](const double* r, double* out) {
@@ -287,13 +288,14 @@ void add_field(const Store& store, const std::string& name, const std::string& m
   } else if (manifold == "S1" || manifold == "S2") {
     const int n = manifold == "S1" ? 2 : 3;
     fields.add_vertex_field(name, name + " as colour", "direction", {name}, [n](const double* in, double* out) { normalised(in, n, out); });
+    const bool on_curves = std::all_of(store.parts.begin(), store.parts.end(), [](const StoredPart& p) { return p.dim == 1; });
     const bool nematic = std::any_of(store.terms.begin(), store.terms.end(), [](const std::string& t) { return t.rfind("frank-oseen", 0) == 0; });
     fields.add_glyphs(name, nematic ? "rod" : "arrow", name, 3, most_glyphs, [n](const float* in, double* out) {
       for (int c = 0; c < 3; ++c) out[c] = c < n ? static_cast<double>(in[c]) : 0;
     });
     if (store.deformation.empty()) {
       fields.first_field = name;
-      fields.first_glyphs = name;
+      if (!on_curves) fields.first_glyphs = name;
     }
     components(n);
   } else if (manifold == "SPD2" || manifold == "SPD3") {
@@ -310,7 +312,10 @@ void add_field(const Store& store, const std::string& name, const std::string& m
     });
     fields.add_vertex_field(name + ".trace", "trace of " + name, "scalar", {name},
                             [n](const double* in, double* out) { out[0] = n == 2 ? in[0] + in[3] : in[0] + in[4] + in[8]; });
-    if (store.deformation.empty()) fields.first_glyphs = name;
+    if (store.deformation.empty()) {
+      fields.first_field.clear();
+      fields.first_glyphs = name;
+    }
   } else if (manifold.size() == 2 && manifold[0] == 'R') {
     const int n = manifold[1] - '0';
     if (name == store.deformation) return;
@@ -318,7 +323,7 @@ void add_field(const Store& store, const std::string& name, const std::string& m
       fields.add_vertex_field(name, name, "scalar", {name}, [](const double* in, double* out) { out[0] = in[0]; });
     else
       components(n);
-    if (store.deformation.empty() && fields.first_field.empty()) fields.first_field = n == 1 ? name : name + ".1";
+    if (store.deformation.empty() && (n == 1 || fields.first_field.empty())) fields.first_field = n == 1 ? name : name + ".1";
   } else {
     const int n = [&] {
       for (const StoredPart& p : store.parts)
@@ -408,7 +413,7 @@ json shape_header(const Store& store, const std::vector<int>& states, const Page
     }
   }
   for (const auto& [name, manifold] : store.manifolds) add_field(store, name, manifold, most_glyphs, fields);
-  if (fields.first_field.empty() && moves) fields.first_field = "displacement";
+  if (fields.first_field.empty() && fields.first_glyphs.empty() && moves) fields.first_field = "displacement";
   out["fields"] = std::move(fields.list);
   out["glyphs"] = std::move(fields.glyphs);
   out["start"] = {{"field", fields.first_field}, {"glyphs", fields.first_glyphs}};

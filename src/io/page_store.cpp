@@ -210,6 +210,30 @@ Store read_store(const std::filesystem::path& file) {
   return store;
 }
 
+std::string draw_as_curves(Store& store) {
+  if (!store.deformation.empty() || store.states.empty() || store.parts.size() != 1 || store.parts[0].dim != 1) return {};
+  StoredPart& part = store.parts[0];
+  for (std::size_t k = 0; k < part.point_data.size(); ++k) {
+    const auto found = store.manifolds.find(part.point_data[k].name);
+    if (found == store.manifolds.end()) continue;
+    const std::string& manifold = found->second;
+    if (manifold != "S1" && manifold != "S2" && manifold != "R2" && manifold != "R3") continue;
+    const auto n = static_cast<std::size_t>(part.point_data[k].components);
+    part.reference.assign(3 * part.points, 0.0F);
+    for (std::size_t i = 0; i < part.points; ++i)
+      for (std::size_t c = 0; c < n; ++c) part.reference[3 * i + c] = store.states[0].parts[0].point_data[k][n * i + c];
+    for (StoredState& state : store.states) {
+      StoredValues& values = state.parts[0];
+      values.displacement.assign(3 * part.points, 0.0F);
+      for (std::size_t i = 0; i < part.points; ++i)
+        for (std::size_t c = 0; c < n; ++c) values.displacement[3 * i + c] = values.point_data[k][n * i + c] - part.reference[3 * i + c];
+    }
+    part.moves = true;
+    return manifold;
+  }
+  return {};
+}
+
 PageStates::PageStates(std::filesystem::path directory, const OutputModel& model, int first_state) : file_(std::move(directory) / "report.data") {
   json manifolds = json::object();
   for (const Field& f : model.fields) manifolds[f.name] = f.manifold->name;

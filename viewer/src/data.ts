@@ -61,6 +61,8 @@ export interface Shape {
   fields: FieldInfo[];
   glyphs: GlyphInfo[];
   start: { field: string; glyphs: string };
+  /** Curves on the unit sphere: it is drawn, too. */
+  sphere?: boolean;
 }
 
 export interface StepInfo {

@@ -1,7 +1,7 @@
 // The picture: surface, tubes, element edges and glyphs of one state, drawn when something has changed.
 
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, PerspectiveCamera, Scene, ShaderMaterial, Vector2, Vector3, Vector4, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, DataTexture, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, PerspectiveCamera, Scene, ShaderMaterial, SphereGeometry, Vector2, Vector3, Vector4, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { frame, goodDirection } from './camera';
@@ -30,6 +30,7 @@ export class Stage {
   private readonly tube: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly thin: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly strong: Mesh<InstancedBufferGeometry, ShaderMaterial>;
+  private readonly sphere: Mesh<BufferGeometry, ShaderMaterial>;
   private glyph: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly extents = new Map<string, Extent>();
   private readonly glyphSizes = new Map<string, number>();
@@ -52,7 +53,9 @@ export class Stage {
     this.thin = new Mesh(new InstancedBufferGeometry(), lineMaterial());
     this.strong = new Mesh(new InstancedBufferGeometry(), lineMaterial());
     this.glyph = new Mesh(new InstancedBufferGeometry(), glyphMaterial());
-    for (const mesh of [this.surface, this.tube, this.thin, this.strong, this.glyph]) {
+    this.sphere = new Mesh(new SphereGeometry(model.shape.sphere ? 0.994 : 0, 96, 48), surfaceMaterial());
+    (this.sphere.material.uniforms.plain.value as Vector3).set(0.78, 0.8, 0.83);
+    for (const mesh of [this.surface, this.tube, this.thin, this.strong, this.glyph, ...(model.shape.sphere ? [this.sphere] : [])]) {
       mesh.frustumCulled = false;
       this.scene.add(mesh);
     }
@@ -104,6 +107,7 @@ export class Stage {
     if (model.shape.displacement.length && !still) shown.push(model.positions(0, view.scale));
     const glyphs = model.shape.glyphs.find((g) => g.name === view.glyphs);
     if (glyphs) shown.push(model.glyphPositions(glyphs, still ? view.state : 0, view.scale));
+    if (model.shape.sphere) shown.push(Float32Array.from(this.sphere.geometry.getAttribute('position').array));
     const upward = up ? new Vector3(...up) : this.up();
     const from = direction ? new Vector3(...direction) : model.shape.flat ? new Vector3(0, 0, 1) : goodDirection(last, upward);
     const target = frame(this.camera, shown, from, upward, model.shape.flat || glyphs ? 1.16 : 1.08);
@@ -247,6 +251,7 @@ export class Stage {
     this.strong.visible = view.edges;
     this.glyph.visible = view.glyphs !== '';
     setClip(this.glyph.material, plane);
+    setClip(this.sphere.material, plane);
     const buffer = this.renderer.getDrawingBufferSize(new Vector2());
     const ratio = this.renderer.getPixelRatio();
     const pixels = (this.edgeLength * buffer.y) / (2 * Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.position.distanceTo(this.controls.target)) / ratio;

@@ -101,8 +101,8 @@ int run(const RunOptions& options) {
 
   std::unique_ptr<ConsoleTable> table;
   if (talks) {
-    for (const std::string& warning : model.warnings) fmt::print(stderr, "warning: {}\n", warning);
     if (!options.quiet) {
+      for (const std::string& warning : model.warnings) fmt::print(stderr, "warning: {}\n", warning);
       table = std::make_unique<ConsoleTable>(stdout, adaptive ? 0 : problem.continuation.steps, on_terminal());
       table->line(fmt::format("{}: {} unknowns, {} free, on {} rank{}{}", problem.title, results.summary().unknowns, model.layout->free_dofs(),
                               model.layout->ranks(), model.layout->ranks() == 1 ? "" : "s",

@@ -180,6 +180,23 @@ TEST(BadInput, AShellThatIsTooThickForItsCurvatureIsToldWithTheCurvatureOnAnyNum
   }
 }
 
+TEST(BadInput, MeshFilesThatCannotBeReadAreNamedInTheProblemFileAndByThemselves) {
+  const std::string file = with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"", "file = \"block.msh\"");
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
+  const std::string truncated = head, unreadable = head + "$EndNodes\n$Elements\n1\n1 16 2 1 1 1 2 3 4 1 2 3 4\n$EndElements\n";
+  for (const std::string& mesh : {truncated, unreadable, std::string("no mesh at all")}) {
+    const Workshop shop;
+    shop.write("strip.toml", file);
+    shop.write("block.msh", mesh);
+    const auto before = shop.files();
+    const Outcome o = shop.karcher("run strip.toml");
+    EXPECT_EQ(o.code, 2) << o.err;
+    EXPECT_NE(o.err.find("strip.toml:7:8: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("block.msh"), std::string::npos) << o.err;
+    EXPECT_EQ(shop.files(), before);
+  }
+}
+
 TEST(BadInput, OverridesAreNamedInMessages) {
   const Workshop shop;
   shop.write("strip.toml", good);

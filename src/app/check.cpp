@@ -118,7 +118,9 @@ int check(const CheckOptions& options) {
     problem = read_problem(options.file, options.read);
     mesh = build_mesh(problem);
   });
+  if (options.derivatives && world_size() > 1) throw SharedInputError("check --derivatives runs on one rank.");
   Model model = build_model(problem, mesh);
+  rehearse(problem, model);
   if (world_rank() != 0) return 0;
   fmt::print("{}\n\nmesh      {} cells of dimension {}, {} nodes\n", problem.title, mesh->cells.size(), mesh->dim, mesh->nodes.size());
   fmt::print("regions\n");

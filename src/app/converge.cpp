@@ -251,6 +251,7 @@ int converge(const ConvergeOptions& options) {
     if (talks && isatty(STDERR_FILENO)) fmt::print(stderr, "level {}: {} unknowns\n", k, level.unknowns);
     level.u = model.discretisation.initial;
     const bool prolonged = solves && k > 0 && options.start == "prolonged";
+    if (!prolonged) require_energy(problem, model);
     if (prolonged) prolong(levels, model.discretisation.constraints, level.u);
     Status reached = Status::converged;
     if (solves) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/progress.hpp"
 #include "karcher/io/summary.hpp"
 #include "karcher/mesh/gmsh.hpp"
 #include "karcher/mesh/partition.hpp"
@@ -145,6 +146,25 @@ Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh) {
   });
   m.exchange = std::make_unique<Exchange>(*m.layout);
   return m;
+}
+
+void require_energy(const Problem& problem, const Model& model) {
+  const Configuration& u = model.discretisation.initial;
+  together([&] {
+    model.functional->set_load_parameter(u.t);
+    const Evaluation e = model.functional->energy(u);
+    if (e.failure)
+      refuse(problem.terms[static_cast<std::size_t>(e.failure->index)].place,
+             "the energy of the initial configuration is not defined: " + e.failure->sentence());
+  });
+}
+
+void rehearse(const Problem& problem, const Model& model) {
+  together([&] {
+    probe_values(problem, model, model.discretisation.initial);
+    model.functional->set_load_parameter(problem.continuation.to);
+  });
+  require_energy(problem, model);
 }
 
 OutputModel output_model(const Problem& problem, const Model& model) {

@@ -41,6 +41,13 @@ struct Model {
 /// Collective: an error of one rank is thrown on all.
 Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh);
 
+/// What cannot be evaluated at the start cannot be minimised. Collective. \throws InputError with the term and the cell
+void require_energy(const Problem& problem, const Model& model);
+
+/// All that would stop a run before its first step: probes outside, data that are wrong at the last load, an energy that is not defined at the start.
+/// Collective. \throws InputError
+void rehearse(const Problem& problem, const Model& model);
+
 /// What writers of results need to know.
 OutputModel output_model(const Problem& problem, const Model& model);
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "app/errors.hpp"
 #include "app/verbs.hpp"
@@ -92,12 +94,15 @@ void Results::resume(const Checkpoint& checkpoint) {
 void Results::measure(const Configuration& u) {
   const Functional& f = *model_.functional;
   const Evaluation e = f.energy(u);
+  const bool defined = model_.exchange->first_text(e.failure ? e.failure->sentence() : "").empty();
   std::vector<double> sums = e.terms;
   for (const auto& term : f.terms()) {
     const std::vector<double> parts = term->part_energies(u);
     sums.insert(sums.end(), parts.begin(), parts.end());
   }
   model_.exchange->sum_all(sums);
+  // A sum over some of the cells would be a wrong number.
+  if (!defined) std::fill(sums.begin(), sums.end(), std::numeric_limits<double>::quiet_NaN());
   summary_.energy = 0;
   summary_.energies.clear();
   summary_.parts.clear();

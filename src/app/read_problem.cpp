@@ -400,7 +400,8 @@ class Reader {
     o.directory = o.directory.lexically_normal();
     s.note("directory", Value::of(o.directory.string()));
     if (std::filesystem::exists(o.directory) && !std::filesystem::is_directory(o.directory))
-      refuse(s.place("directory"), "the directory of results, " + o.directory.string() + ", is a file.");
+      refuse(options_.output.empty() ? s.place("directory") : Place{"--output", 0, 0},
+             "the directory of results, " + o.directory.string() + ", is a file.");
     o.vtu = s.flag("vtu", o.vtu);
     o.report = s.flag("report", o.report);
     o.every = s.integer("every", o.every, 1, 1000000);

@@ -65,7 +65,6 @@ ContinuationOptions remaining(const ContinuationOptions& all, const Checkpoint& 
 }  // namespace
 
 int run(const RunOptions& options) {
-  const double begin = seconds_now();
   catch_interrupts();
   const bool talks = world_rank() == 0;
   Problem problem;
@@ -77,17 +76,12 @@ int run(const RunOptions& options) {
   });
   Model model = build_model(problem, mesh);
   Configuration u = model.discretisation.initial;
-  together([&] {
-    probe_values(problem, model, u);
-    // Data at the last load are looked at before anything is written.
-    model.functional->set_load_parameter(problem.continuation.to);
-    model.functional->set_load_parameter(problem.continuation.from);
-  });
+  rehearse(problem, model);
   const std::uint64_t id = identity(problem, model);
 
   Checkpoint checkpoint;
   const bool adaptive = problem.continuation.adaptive;
-  Results results(problem, model, id, seconds_now() - begin, adaptive ? 0 : problem.continuation.steps);
+  Results results(problem, model, id, seconds_now(), adaptive ? 0 : problem.continuation.steps);
   if (options.resume) {
     together([&] { checkpoint = read_checkpoint(results.checkpoint_file(), model.fields(), id); });
     u = checkpoint.configuration;

@@ -68,6 +68,7 @@ CellBatches::CellBatches(const TermInput& input, const std::function<int(CellKin
           const CellFrame frame = cell_frame(jets[q], dim);
           BatchPoint& p = points_[first_point_.back() + q];
           const auto l = static_cast<int>(lane);
+          // Expressions are functions of the mesh point, wherever the stress-free configuration puts it.
           set_lane(p.weight, l, data.quadrature->weights[q] * frame.measure);
           for (int a = 0; a < 3; ++a) {
             set_lane(p.x[a], l, jets[q].x[a]);

@@ -184,7 +184,7 @@ Evaluation Functional::sum(const Configuration& u, Want want, std::span<double> 
           for (int v = 0; v < vertex_count(cell.kind); ++v)
             centre += (1.0 / vertex_count(cell.kind)) *
                       layout_->fields().front().space->mesh().nodes[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(v)])];
-          result.failure = EvaluationFailure{out.trouble[lane], term.name(), centre};
+          result.failure = EvaluationFailure{out.trouble[lane], static_cast<int>(k), term.name(), centre};
           result.energy = std::numeric_limits<double>::infinity();
           return result;
         }
@@ -238,7 +238,7 @@ Evaluation Functional::sum(const Configuration& u, Want want, std::span<double> 
   if (h)
     for (double x : h->values) zero += x * 0;
   if (!(zero == 0) || !std::isfinite(result.energy)) {
-    result.failure = EvaluationFailure{Trouble::not_finite, terms_.empty() ? "" : terms_.front()->name(), {}};
+    result.failure = EvaluationFailure{Trouble::not_finite, 0, terms_.empty() ? "" : terms_.front()->name(), {}};
     result.energy = std::numeric_limits<double>::infinity();
   }
   return result;

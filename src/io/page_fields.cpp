@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <unordered_set>
 
 namespace karcher {
@@ -44,13 +45,15 @@ class Fields {
     for (const int s : states_) {
       const StoredState& state = store_.states[static_cast<std::size_t>(s)];
       Values v;
+      std::set<std::pair<int, int>> bad_cells;
       for (const PageFacet& f : shape_.facets) {
         float x = value(f.part, state.parts[static_cast<std::size_t>(f.part)], static_cast<std::size_t>(f.cell));
         if (std::isnan(x) && f.below_part >= 0)
           x = value(f.below_part, state.parts[static_cast<std::size_t>(f.below_part)], static_cast<std::size_t>(f.below_cell));
-        bad += !std::isfinite(x) && here(name, f);
+        if (!std::isfinite(x) && here(name, f)) bad_cells.insert({f.part, f.cell});
         v.push_back(x);
       }
+      bad += static_cast<long>(bad_cells.size());
       numbers.push_back(arrays_.add_quantised(v));
     }
     list.push_back({{"name", name}, {"label", label}, {"kind", "scalar"}, {"at", "cell"}, {"arrays", std::move(numbers)}, {"not_finite", bad}});
@@ -277,7 +280,10 @@ void add_field(const Store& store, const std::string& name, const std::string& m
     fields.add_glyphs(triad ? "directors of " + name : "frame of " + name, "frame", name, 4, most_glyphs, [](const float* in, double* out) {
       for (int c = 0; c < 4; ++c) out[c] = in[(c + 1) % 4];
     });
-    if (store.deformation.empty()) fields.first_glyphs = fields.glyphs.empty() ? "" : fields.glyphs.back()["name"];
+    if (store.deformation.empty()) {  // triads are read most easily on a plain ground
+      fields.first_field.clear();
+      fields.first_glyphs = fields.glyphs.empty() ? "" : fields.glyphs.back()["name"];
+    }
     if (!triad) return components(4);
     fields.add_vertex_field(name + ".angle", "rotation angle of " + name + " in degrees", "scalar", directors_of(store, name),
                             [](const double* r, double* out) {
@@ -387,6 +393,11 @@ json shape_header(const Store& store, const std::vector<int>& states, const Page
     out["edge_lengths"] = arrays.add_integers(shape.edge_lengths);
   }
   out["strong_edges"] = shape.strong_edges;
+  if (!shape.inner_triangles.empty()) {
+    out["inner"] = arrays.add_integers(shape.inner_triangles, 3);
+    out["inner_cells"] = arrays.add_integers(shape.inner_facets);
+    out["solid_cells"] = arrays.add_integers(shape.solid_cells);
+  }
 
   Fields fields(store, states, shape, arrays);
   add_energies(store, fields);

@@ -12,6 +12,8 @@ namespace karcher {
 namespace {
 
 constexpr int finest = 16;
+/// Bounds for the faces inside solids: triangles times states, and triangles that are always allowed.
+constexpr std::size_t most_inner_values = 400000, least_inner_triangles = 8000;
 
 using Pair = std::array<int, 2>;  ///< (part, node) of a point, or the two ends of an edge
 
@@ -57,7 +59,8 @@ class Positions {
 double length(const Vec3<double>& a) { return std::sqrt(dot(a, a)); }
 
 /// The faces and curves that are seen from outside, part by part. A face of a later part that lies on one of an earlier part takes its place.
-std::vector<PageFacet> visible_facets(const Store& store) {
+/// `inner` gets the faces between two cells of a solid, twice each: as the first and as the second cell has them, with the nodes of the first.
+std::vector<PageFacet> visible_facets(const Store& store, std::vector<PageFacet>& inner) {
   std::vector<PageFacet> facets;
   for (std::size_t p = 0; p < store.parts.size(); ++p) {
     const StoredPart& part = store.parts[p];
@@ -65,6 +68,7 @@ std::vector<PageFacet> visible_facets(const Store& store) {
       struct Seen {
         std::size_t facet;
         int count;
+        int second;  ///< cell
       };
       std::map<std::vector<int>, Seen> seen;
       std::vector<PageFacet> all;
@@ -75,18 +79,27 @@ std::vector<PageFacet> visible_facets(const Store& store) {
           std::vector<int> key;
           for (const int v : face.vertices) key.push_back(cell.nodes[static_cast<std::size_t>(v)]);
           std::sort(key.begin(), key.end());
-          auto [at, first] = seen.try_emplace(std::move(key), Seen{all.size(), 0});
+          auto [at, first] = seen.try_emplace(std::move(key), Seen{all.size(), 0, -1});
           ++at->second.count;
-          if (!first) continue;
+          if (!first) {
+            at->second.second = static_cast<int>(c);
+            continue;
+          }
           PageFacet facet{static_cast<int>(p), static_cast<int>(c), face.kind, {}, -1, -1};
           for (const int k : facet_nodes(cell.kind, part.order, static_cast<int>(f))) facet.nodes.push_back(cell.nodes[static_cast<std::size_t>(k)]);
           all.push_back(std::move(facet));
         }
       }
-      std::vector<char> outside(all.size(), 0);
-      for (const auto& [key, s] : seen) outside[s.facet] = s.count == 1;
+      std::vector<int> other(all.size(), -1);
+      for (const auto& [key, s] : seen) other[s.facet] = s.second;
       for (std::size_t k = 0; k < all.size(); ++k)
-        if (outside[k]) facets.push_back(std::move(all[k]));
+        if (other[k] < 0) {
+          facets.push_back(std::move(all[k]));
+        } else {
+          inner.push_back(all[k]);
+          inner.push_back(std::move(all[k]));
+          inner.back().cell = other[k];
+        }
     } else if (part.dim > 0) {
       for (std::size_t c = 0; c < part.cells.size(); ++c)
         facets.push_back({static_cast<int>(p), static_cast<int>(c), part.cells[c].kind, part.cells[c].nodes, -1, -1});
@@ -465,6 +478,36 @@ void thin(PageShape& shape, const Store& store, std::size_t most) {
   shape.strong_edges = 0;
 }
 
+/// Adds the faces inside solids, where at most `most` triangles show them, and says so where not.
+void add_inner_faces(PageShape& shape, const Store& store, const std::vector<int>& states, const std::vector<PageFacet>& inner, std::size_t most) {
+  std::vector<PageFacet> first_sides;
+  for (std::size_t k = 0; k < inner.size(); k += 2) first_sides.push_back(inner[k]);
+  Cutter cutter(store, states, std::move(first_sides));
+  int limit = finest;
+  while (limit > 1 && cutter.triangle_count(limit) > most) limit /= 2;
+  if (cutter.triangle_count(limit) > most) {
+    shape.note += (shape.note.empty() ? "" : " ") + std::string("The inside of the solid is left out, so that the page stays small: cut open, it is a shell here.");
+    return;
+  }
+  const PageShape cut = cutter.cut(limit);
+  const auto facets = static_cast<std::uint32_t>(shape.facets.size()), vertices = static_cast<std::uint32_t>(shape.vertices.size());
+  shape.facets.insert(shape.facets.end(), inner.begin(), inner.end());
+  for (const PageVertex& v : cut.vertices) shape.vertices.push_back({static_cast<int>(facets) + 2 * v.facet, v.weights});
+  for (const std::uint32_t v : cut.triangles) shape.inner_triangles.push_back(vertices + v);
+  for (const std::uint32_t f : cut.triangle_facets) shape.inner_facets.push_back(facets + 2 * f);
+
+  std::vector<std::size_t> begin;  // numbers of the cells of a part start here
+  std::size_t count = 0;
+  for (const StoredPart& p : store.parts) {
+    begin.push_back(count);
+    count += p.cells.size();
+  }
+  for (const PageFacet& f : shape.facets) {
+    const auto part = static_cast<std::size_t>(f.below_part >= 0 ? f.below_part : f.part);
+    shape.solid_cells.push_back(static_cast<std::uint32_t>(begin[part] + static_cast<std::size_t>(f.below_part >= 0 ? f.below_cell : f.cell)));
+  }
+}
+
 }  // namespace
 
 void PageShape::interpolate(std::size_t vertex, const std::vector<float>& values, int components, double* out) const {
@@ -480,7 +523,8 @@ void PageShape::interpolate(std::size_t vertex, const std::vector<float>& values
 }
 
 PageShape page_shape(const Store& store, const std::vector<int>& states, int most_triangles) {
-  std::vector<PageFacet> facets = visible_facets(store);
+  std::vector<PageFacet> inner;
+  std::vector<PageFacet> facets = visible_facets(store, inner);
   // Curvature over all states is asked for where that is quick; of many facets the last state stands for the others.
   std::vector<int> measured = states;
   if (facets.size() * states.size() > 500000 && !states.empty()) measured = {states.back()};
@@ -494,6 +538,11 @@ PageShape page_shape(const Store& store, const std::vector<int>& states, int mos
     thin(shape, store, most);
   else if (limit < finest && shape.triangle_facets.size() < wanted)
     shape.note = fmt::format("Curved elements are cut into at most {} pieces in each direction, so that the page stays small.", limit);
+  // They are seen only in a cut, so they must not make the page much larger than it is without them.
+  if (!inner.empty()) {
+    const std::size_t bound = std::min(most, std::max(most_inner_values / std::max<std::size_t>(1, states.size()), least_inner_triangles));
+    add_inner_faces(shape, store, measured, inner, shape.triangle_facets.size() < most ? bound : 0);
+  }
   return shape;
 }
 

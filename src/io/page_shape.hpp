@@ -6,6 +6,8 @@
 /// Facets keep the Lagrange geometry of their cells. An edge is cut into n = 1, 2, 4, 8 or 16 pieces, by its own curvature over all states, so that neighbours
 /// agree; the inside of a facet is cut as finely as the finest of its edges and its own curvature ask for, and its outer points move to the nearest point
 /// of the coarser edge. Triangles that this makes flat are dropped.
+///
+/// Where they are few enough, the faces inside solids are there, too, so that a solid that is cut open shows its cells and not an empty shell.
 
 #include <array>
 #include <cstdint>
@@ -39,6 +41,10 @@ struct PageShape {
   std::vector<std::uint32_t> curves, curve_lengths, curve_facets;  ///< polylines of curves
   std::vector<std::uint32_t> edges, edge_lengths;                  ///< element edges, borders and creases first
   int strong_edges = 0;
+  /// Faces between two cells of a solid: three vertices each, and the facet of the cell on one side; the next facet is the same face as seen from the other.
+  std::vector<std::uint32_t> inner_triangles, inner_facets;
+  /// For every facet a number of the cell of a solid that it bounds (or that lies below it), else a number of its own; empty without inner faces.
+  std::vector<std::uint32_t> solid_cells;
   std::string note;  ///< what was left out, if anything
 
   /// Value at a vertex of numbers at the points of its part ([point][component]).

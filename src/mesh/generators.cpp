@@ -75,7 +75,10 @@ const std::vector<Generator>& table() {
         {{"disc",
           "Disc around the origin in the plane z = 0.\nTriangles: six sectors of n x n; quadrilaterals: a square of n x n and n rings of 4 n around "
           "it.",
-          {length("radius", "of the disc", 1), counts("n", {4}), choice("shape", "of the cells", {"triangle", "quadrilateral"})},
+          {length("radius", "of the disc", 1),
+           counts("n", {4}),
+           choice("shape", "of the cells", {"triangle", "quadrilateral"}),
+           {"grading", "1", "size of the cells at the rim, along the radius, over that in the centre", {1}, {}, 1, true, false}},
           {"boundary"}},
          shapes::disc},
         {{"sphere",

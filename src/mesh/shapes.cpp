@@ -76,7 +76,13 @@ SurfaceGrid around(const Arguments& arguments, double low, double high) {
 
 /// Six triangles around the origin, corners at distance 1, each cut into n x n. With rho the norm whose unit ball is the hexagon, p goes to
 /// R p (1 + rho (rho / |p| - 1)): affine at the centre, the circle at the rim.
-Mesh disc_of_triangles(int n, int order, double radius) {
+/// Radial stretch of the unit disc, x -> x (1 + c |x|^2) / (1 + c), smooth at the origin; its derivative at the rim is `grading` times that at the origin.
+Point graded(const Point& x, double grading) {
+  const double c = (grading - 1) / 3;
+  return (1 + c * norm2(x)) / (1 + c) * x;
+}
+
+Mesh disc_of_triangles(int n, int order, double radius, double grading) {
   std::vector<Cell> sectors;
   const auto corner = [](int k) { return Point{{std::cos(k * pi / 3), std::sin(k * pi / 3), 0.0}}; };
   for (int k = 0; k < 6; ++k) sectors.push_back({CellKind::triangle, 1, {0, k + 1, (k + 1) % 6 + 1}, {Point{}, corner(k), corner(k + 1)}});
@@ -88,22 +94,22 @@ Mesh disc_of_triangles(int n, int order, double radius) {
       const double angle = (k + 0.5) * pi / 3;
       rho = std::max(rho, (p[0] * std::cos(angle) + p[1] * std::sin(angle)) / std::cos(pi / 6));
     }
-    return radius * (1 + rho * (rho / distance - 1)) * p;
+    return radius * graded((1 + rho * (rho / distance - 1)) * p, grading);
   });
 }
 
 /// n x n quadrilaterals in a square of half width 0.45 R and n rings of 4 n around it, which blend the square's sides linearly into the circle.
-Mesh disc_of_quadrilaterals(int n, int order, double radius) {
+Mesh disc_of_quadrilaterals(int n, int order, double radius, double grading) {
   return elevate(ringed_square(n), order, [=](const Point& p) {
     constexpr double core = 0.45;
     const int main = std::abs(p[0]) >= std::abs(p[1]) ? 0 : 1;
     const double size = std::abs(p[main]), blend = std::max(0.0, size - 1);
-    if (blend == 0) return radius * core * p;
+    if (blend == 0) return radius * graded(core * p, grading);
     const double along = p[1 - main] / size, sign = p[main] > 0 ? 1 : -1;
     Point x;
-    x[main] = sign * radius * ((1 - blend) * core + blend * std::cos(along * pi / 4));
-    x[1 - main] = radius * ((1 - blend) * core * along + blend * std::sin(along * pi / 4));
-    return x;
+    x[main] = sign * ((1 - blend) * core + blend * std::cos(along * pi / 4));
+    x[1 - main] = (1 - blend) * core * along + blend * std::sin(along * pi / 4);
+    return radius * graded(x, grading);
   });
 }
 
@@ -181,8 +187,8 @@ Mesh annulus(const Arguments& a) {
 }
 
 Mesh disc(const Arguments& a) {
-  Mesh mesh = a.triangles() ? disc_of_triangles(a.integer("cells"), a.order(), a.number("radius"))
-                            : disc_of_quadrilaterals(a.integer("cells"), a.order(), a.number("radius"));
+  Mesh mesh = a.triangles() ? disc_of_triangles(a.integer("cells"), a.order(), a.number("radius"), a.number("grading"))
+                            : disc_of_quadrilaterals(a.integer("cells"), a.order(), a.number("radius"), a.number("grading"));
   name_boundary(mesh, {});
   return mesh;
 }

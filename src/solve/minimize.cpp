@@ -266,8 +266,8 @@ void Minimizer::State::correct(Iterate& x, double base_energy, const TrustRegion
 /// Moves the boundary to its prescribed values and everything else with it by the linear problem. False if the boundary does not move.
 bool Minimizer::State::predict(Configuration& u) {
   std::vector<double> delta = boundary_increment(layout, u, *task.boundary);
-  const bool moves = exchange.any(std::any_of(delta.begin(), delta.end(), [](double x) { return x != 0; }));
-  if (!moves) {
+  const double reach = uniform_size(delta);
+  if (!(reach > 1e-13)) {  // rounding is no move
     copy_fixed_nodes(layout, *task.boundary, u);
     return false;
   }
@@ -286,7 +286,6 @@ bool Minimizer::State::predict(Configuration& u) {
     for (std::size_t d = 0; d < pull.size(); ++d) pull[d] = fixed[d] ? 0 : pull[d] + current.g[d];
     model->set_gradient(pull);
     // Soft modes must not carry the inside further than the boundary goes.
-    const double reach = uniform_size(delta);
     model->step(reach, {});
     TrustRegionModel::Step step;
     for (double part : {1.0, 0.25, 0.0625}) {
@@ -303,7 +302,8 @@ bool Minimizer::State::predict(Configuration& u) {
       step = candidate;
     }
     if (predicted.energy < infinity) evaluator.gradient(predicted);
-    if (options.initial_radius == 0) radius = std::min(radius, reach);
+    // Where it is the boundary that disturbs an equilibrium, the solution is about as far as the boundary goes.
+    if (options.initial_radius == 0 && current.gradient_norm < 0.1 * naive.gradient_norm) radius = std::min(radius, reach);
     if (predicted.energy < infinity) correct(predicted, infinity, step);
   }
   const bool better = predicted.energy < infinity && predicted.energy <= naive.energy;
@@ -422,7 +422,7 @@ bool Minimizer::State::iterate() {
                            accepted,
                            seconds_since_start(),
                            x.failure};
-    if (!accepted && tiny) {
+    if (!accepted && tiny && newton) {
       tell(record);
       return end(fmt::format("The energy cannot be reduced beyond rounding (a Newton step promises {:.2g}); the gradient norm is {:.3g}",
                              step.decrease, current.gradient_norm));
@@ -447,7 +447,7 @@ bool Minimizer::State::iterate() {
     const double least = std::isfinite(rise) && rise > 0 ? -0.5 * slope / rise : 0.25;
     radius = std::clamp(least, 0.2, 0.5) * step.norm;
     tell(record);
-    if (!(radius > 1e-14)) {
+    if (tiny || !(radius > 1e-14)) {
       stop(Status::not_converged, fmt::format("No step reduces the energy, however short; the gradient norm is {:.3g}, its threshold {:.3g}.{}",
                                               current.gradient_norm, tolerance(), x.failure.empty() ? "" : " " + x.failure));
       return true;

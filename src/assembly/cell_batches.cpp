@@ -68,10 +68,11 @@ CellBatches::CellBatches(const TermInput& input, const std::function<int(CellKin
           const CellFrame frame = cell_frame(jets[q], dim);
           BatchPoint& p = points_[first_point_.back() + q];
           const auto l = static_cast<int>(lane);
-          // Expressions are functions of the mesh point, wherever the stress-free configuration puts it.
           set_lane(p.weight, l, data.quadrature->weights[q] * frame.measure);
+          // Expressions are functions of the mesh point, wherever the stress-free configuration puts it.
+          const Vec3<double> x = input.reference_position ? geometry(*input.mesh, cell, data.quadrature->points[q]).x : jets[q].x;
           for (int a = 0; a < 3; ++a) {
-            set_lane(p.x[a], l, jets[q].x[a]);
+            set_lane(p.x[a], l, x[a]);
             for (int b = 0; b < 3; ++b) set_lane(p.to_frame[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)], l, frame.to_frame(a, b));
           }
         }

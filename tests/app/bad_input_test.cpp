@@ -124,6 +124,33 @@ std::vector<Mistake> mistakes() {
        with("[solver]", "[fields.P]\nmanifold = \"SPD3\"\ninterpolation = \"projection\"\n[solver]"),
        ":49:17: ",
        {"geodesic", "closest point"}},
+      {"ProjectionOntoAHyperbolicSpace",
+       with("[solver]", "[fields.P]\nmanifold = \"H3\"\ninterpolation = \"projection\"\n[solver]"),
+       ":49:17: ",
+       {"geodesic", "closest point"}},
+      {"UnknownInterpolation", with("\"projection\"", "\"projektion\""), ":23:17: ", {"Did you mean \"projection\"?", "geodesic"}},
+      {"RegionThatTheMeshHas", with("[regions.middle]", "[regions.left]"), ":12:10: ", {"\"left\"", "already"}},
+      {"RegionOfATooHighDimension", with("dim = 2", "dim = 3"), ":12:10: ", {"dim is 3", "dimension 2"}},
+      {"TwoPairsOfModuli", with("mu = 1\n", "mu = 1\nyoung = 1\npoisson = 0\n"), ":32:6: ", {"young and poisson", "one pair or the other"}},
+      {"IncompressibleModuli", with("mu = 1\nlambda = 1\n", "young = 1\npoisson = 0.5\n"), ":33:11: ", {"energies.0.poisson is 0.5", "1/2"}},
+      {"NonFiniteParameter", with("load = 1.0", "load = \"log(-1)\""), ":4:9: ", {"parameters.load", "must be finite"}},
+      {"NonFiniteLoadAtTheLastLoadStep", with("load*t", "1/(1-t)"), ":40:17: ", {"loads.0.value.2", "must be finite"}},
+      {"NonFiniteReference",
+       with("[fields.m]", "[reference]\nposition = [\"log(x)\", \"y\", \"z\"]\n[fields.m]"),
+       ":17:14: ",
+       {"reference.position.0", "at (0, 0, 0)", "must be finite"}},
+      {"InitialValuesThatArePoints", with("\"identity\"", "\"reference\""), ":24:11: ", {"reference position is no point of SO3"}},
+      {"NoInitialDirection",
+       with("[solver]", "[fields.n]\nmanifold = \"S2\"\ninitial = [\"x\", \"y\", 0]\n[[energies]]\ntype = \"harmonic\"\nfield = \"n\"\n[solver]"),
+       ":49:11: ",
+       {"fields.n.initial", "at (0, 0, 0)"}},
+      {"DegreeOfQuadratureTooHigh", with("[solver]", "[quadrature]\ndegree = 99\n[solver]"), ":48:10: ", {"from 0 to 30", "99"}},
+      {"NoLoadSteps", with("[solver]", "[continuation]\nsteps = 0\n[solver]"), ":48:9: ", {"continuation.steps", "from 1"}},
+      {"FlowWithoutTime", with("max_iterations = 50", "method = \"gradient-flow\"\n[continuation]\nfrom = 1"), ":48:10: ", {"time interval"}},
+      {"ProbesOfOneName",
+       good + "[[probes]]\nname = \"tip\"\nfield = \"m\"\nat = [2, 1, 0]\n[[probes]]\nname = \"tip\"\nfield = \"Q\"\nat = [2, 1, 0]\n",
+       ":54:8: ",
+       {"\"tip\"", "strip.toml:52:6"}},
       {"UnusedField", with("[solver]", "[fields.P]\nmanifold = \"SPD3\"\n[solver]"), ":47:9: ", {"no energy uses the field \"P\""}},
       {"UnknownQuantity",
        good + "[[probes]]\nname = \"tip\"\nfield = \"m\"\nat = [2, 0.5, 0]\nquantity = \"displacment\"\n",
@@ -180,11 +207,47 @@ TEST(BadInput, AShellThatIsTooThickForItsCurvatureIsToldWithTheCurvatureOnAnyNum
   }
 }
 
+// Neighbouring nodes half a turn apart have no unique mean.
+const std::string far_apart = R"toml([mesh]
+generate = "rectangle"
+cells = [4, 4]
+shape = "quadrilateral"
+
+[fields.u]
+manifold = "S2"
+interpolation = "geodesic"
+initial = ["cos(4*pi*x)", "sin(4*pi*x)", 0]
+
+[[energies]]
+type = "harmonic"
+field = "u"
+)toml";
+
+TEST(BadInput, InitialValuesTooFarApartAreToldWithTheCellByEveryVerbThatEvaluatesOnAnyNumberOfRanks) {
+  for (const char* arguments : {"run far.toml", "run far.toml -n 2", "evaluate far.toml --json", "check far.toml", "converge far.toml --levels 1",
+                                "run far.toml --set 'fields.u.manifold=\"SO3\"' --set 'fields.u.initial=[0, 0, \"4*pi*x\"]'",
+                                "run far.toml --set 'fields.u.manifold=\"SO3\"' --set 'fields.u.initial=[0, 0, \"4*pi*x\"]' --set "
+                                "fields.u.interpolation=projection"}) {
+    const Workshop shop;
+    shop.write("far.toml", far_apart);
+    const Outcome o = shop.karcher(arguments);
+    EXPECT_EQ(o.code, 2) << o.err;
+    EXPECT_EQ(o.out, "") << arguments;
+    EXPECT_NE(o.err.find("far.toml:11:1: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("harmonic in the cell around (0.125, "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("too far apart"), std::string::npos) << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+    EXPECT_EQ(shop.files().size(), 1u);
+  }
+}
+
 TEST(BadInput, MeshFilesThatCannotBeReadAreNamedInTheProblemFileAndByThemselves) {
   const std::string file = with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"", "file = \"block.msh\"");
   const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
+  const std::string rest = "$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n";
+  const std::string infinite = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 nan 0\n3 1 1 0\n4 0 1 0\n" + rest;
   const std::string truncated = head, unreadable = head + "$EndNodes\n$Elements\n1\n1 16 2 1 1 1 2 3 4 1 2 3 4\n$EndElements\n";
-  for (const std::string& mesh : {truncated, unreadable, std::string("no mesh at all")}) {
+  for (const std::string& mesh : {truncated, unreadable, infinite, std::string("no mesh at all")}) {
     const Workshop shop;
     shop.write("strip.toml", file);
     shop.write("block.msh", mesh);
@@ -204,6 +267,7 @@ TEST(BadInput, OverridesAreNamedInMessages) {
   EXPECT_NE(shop.karcher("run strip.toml --set energies.3.thickness=1").err.find("has 1 entries"), std::string::npos);
   EXPECT_NE(shop.karcher("run strip.toml --set energies.0.thickness=-1").err.find("--set energies.0.thickness=-1: "), std::string::npos);
   EXPECT_EQ(shop.karcher("run strip.toml --set nonsense").code, 2);
+  EXPECT_NE(shop.karcher("run strip.toml -o strip.toml").err.find("--output: the directory of results"), std::string::npos);
 }
 
 TEST(BadInput, WrongCommandLinesAreInputErrors) {

@@ -163,6 +163,102 @@ TEST(Run, ResumesAfterTheLastFinishedLoadStepToTheSameEnd) {
   EXPECT_EQ(shop.karcher("run strip.toml --resume -o nowhere").code, 2);
 }
 
+TEST(Run, ALoadStepThatFailsNamesTheCellAndKeepsTheResultsOfThoseBefore) {
+  // A single geodesic from the pole: half way round the mean of the two ends is not unique.
+  const std::string file = R"toml(
+[mesh]
+generate = "interval"
+cells = [1]
+[fields.u]
+manifold = "S2"
+interpolation = "geodesic"
+[[energies]]
+type = "harmonic"
+field = "u"
+[[dirichlet]]
+field = "u"
+on = "left"
+value = [0, 0, 1]
+[[dirichlet]]
+field = "u"
+on = "right"
+value = ["sin(pi*t)", 0, "cos(pi*t)"]
+[continuation]
+steps = 2
+)toml";
+  for (const char* ranks : {"", " -n 2"}) {
+    const Workshop shop;
+    shop.write("arc.toml", file);
+    const Outcome o = shop.karcher(std::string("run arc.toml -q") + ranks);
+    EXPECT_EQ(o.code, 1) << o.err;
+    const json s = summary(shop, "arc");
+    EXPECT_EQ(s["status"], "failed");
+    ASSERT_EQ(s["load_steps"].size(), 2u);
+    // 1/2 int |u'|^2 of a quarter of a great circle over a unit interval
+    EXPECT_NEAR(s["load_steps"][0]["energy"].get<double>(), M_PI * M_PI / 8, 1e-12);
+    EXPECT_EQ(s["load_steps"][1]["status"], "failed");
+    EXPECT_NE(s["load_steps"][1]["reason"].get<std::string>().find("harmonic in the cell around (0.5, 0, 0)"), std::string::npos);
+    EXPECT_TRUE(s["energy"].is_null()) << "not a sum over some of the cells";
+    EXPECT_TRUE(s["energies"]["harmonic"].is_null());
+    EXPECT_TRUE(shop.files().contains("arc/solution_0001.vtu"));
+  }
+}
+
+TEST(Run, WithoutConvergenceTheInertiaIsToldAllTheSame) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  // The unloaded strip is stable; one step under a large load leads where it is not.
+  for (const int iterations : {0, 1}) {
+    const Outcome o = shop.karcher("run strip.toml -q --set load=3e-3 --set solver.max_iterations=" + std::to_string(iterations));
+    EXPECT_EQ(o.code, 1) << o.err;
+    const json step = summary(shop, "strip")["load_steps"][0];
+    EXPECT_EQ(step["status"], "not-converged");
+    EXPECT_EQ(step["negative_eigenvalues"].get<int>() > 0, iterations == 1);
+  }
+}
+
+TEST(Run, ExpressionsAreFunctionsOfTheMeshPointWhereverTheReferencePutsIt) {
+  const Workshop shop;
+  // The strip [0, 1] x [0, 1] of the mesh stands for [0, 2] x [0, 1]. Flat and stretched alike in all directions, its energy is proportional to the mean
+  // thickness, 0.15 for 0.1 (1 + x) on the mesh; the load on R^1 is - int x u = - 2 int_0^1 x dx for u = 1.
+  shop.write("two.toml", R"toml(
+[mesh]
+generate = "rectangle"
+cells = [2, 2]
+[reference]
+position = ["2*x", "y", "z"]
+[fields.m]
+manifold = "R3"
+order = 2
+initial = ["2.2*x", "1.1*y", "z"]
+[fields.Q]
+manifold = "SO3"
+[fields.u]
+manifold = "R1"
+initial = 1
+[[energies]]
+type = "cosserat-shell"
+deformation = "m"
+rotation = "Q"
+thickness = "0.1*(1 + x)"
+mu = 1
+lambda = 1
+mu_c = 1
+L_c = 0.1
+[[energies]]
+type = "harmonic"
+field = "u"
+[[loads]]
+type = "volume"
+field = "u"
+value = ["x"]
+)toml");
+  const json varying = json::parse(shop.karcher("evaluate two.toml --json").out)["energies"];
+  const json constant = json::parse(shop.karcher("evaluate two.toml --json --set energies.0.thickness=0.1").out)["energies"];
+  EXPECT_NEAR(varying["cosserat-shell"].get<double>() / constant["cosserat-shell"].get<double>(), 1.5, 1e-12);
+  EXPECT_NEAR(varying["volume-load"].get<double>(), -1, 1e-12);
+}
+
 TEST(Run, AnInterruptKeepsFinishedLoadStepsAndResumes) {
   const std::string settings =
       " --set continuation.steps=100000 --set mesh.cells=[4,2] --set output.vtu=false --set output.report=false -q -o results";

@@ -34,7 +34,7 @@ struct KindData {
 struct BatchPoint {
   NativeScalar weight{};                                  ///< quadrature weight times measure
   std::array<std::array<NativeScalar, 3>, 3> to_frame{};  ///< d_a = sum_b to_frame[a][b] d/dxi_b
-  Vec3<NativeScalar> x;
+  Vec3<NativeScalar> x;                                   ///< point of the mesh, also where the stress-free configuration is another
 };
 
 class CellBatches {

@@ -16,7 +16,8 @@ namespace karcher {
 
 struct EvaluationFailure {
   Trouble trouble = Trouble::none;
-  std::string term;
+  int index = 0;         ///< of the term
+  std::string term;      ///< its name
   Vec3<double> place{};  ///< centre of the cell
   std::string sentence() const;
 };

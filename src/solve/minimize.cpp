@@ -484,10 +484,11 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   }
   if (s.current.ok()) s.largest_gradient = std::max(s.largest_gradient, s.current.gradient_norm);
   if (!s.current.ok())
-    s.stop(Status::failed, "The energy of the initial configuration is not finite: " + s.current.failure);
+    s.stop(Status::failed, "The energy at the start of the load step is not defined: " + s.current.failure);
   else
     while (!s.iterate()) {
     }
+  if (s.report.status == Status::not_converged) s.count_negative_eigenvalues();
 
   u.values.swap(s.current.u.values);
   s.current.u.values.clear();

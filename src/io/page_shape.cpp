@@ -486,7 +486,8 @@ void add_inner_faces(PageShape& shape, const Store& store, const std::vector<int
   int limit = finest;
   while (limit > 1 && cutter.triangle_count(limit) > most) limit /= 2;
   if (cutter.triangle_count(limit) > most) {
-    shape.note += (shape.note.empty() ? "" : " ") + std::string("The inside of the solid is left out, so that the page stays small: cut open, it is a shell here.");
+    shape.note += (shape.note.empty() ? "" : " ") +
+                  std::string("The inside of the solid is left out, so that the page stays small: cut open, it is a shell here.");
     return;
   }
   const PageShape cut = cutter.cut(limit);
@@ -540,8 +541,8 @@ PageShape page_shape(const Store& store, const std::vector<int>& states, int mos
     shape.note = fmt::format("Curved elements are cut into at most {} pieces in each direction, so that the page stays small.", limit);
   // They are seen only in a cut, so they must not make the page much larger than it is without them.
   if (!inner.empty()) {
-    const std::size_t bound = std::min(most, std::max(most_inner_values / std::max<std::size_t>(1, states.size()), least_inner_triangles));
-    add_inner_faces(shape, store, measured, inner, shape.triangle_facets.size() < most ? bound : 0);
+    const std::size_t wanted_most = std::max(most_inner_values / std::max<std::size_t>(1, states.size()), least_inner_triangles);
+    add_inner_faces(shape, store, measured, inner, std::min(wanted_most, most - shape.triangle_facets.size()));
   }
   return shape;
 }

@@ -4,12 +4,12 @@ import { PerspectiveCamera, Vector3 } from 'three';
 
 const colours = { x: ['#b3352c', '#f08379'], y: ['#1d7a46', '#57c288'], z: ['#2f6db3', '#6ea8e6'] } as const;
 
-/** Draws into a square of `size` CSS pixels at (left, top) of the context. */
+/** Draws into a square of `size` CSS pixels at (left, top) of the context. A flat shape seen from above needs no z. */
 export function drawAxes(context: CanvasRenderingContext2D, camera: PerspectiveCamera, left: number, top: number, size: number, dark: boolean, flat: boolean): void {
   const centre = size / 2, length = Math.max(20, size * 0.34 - 4);
   const arms = (['x', 'y', 'z'] as const)
-    .filter((name) => !(flat && name === 'z'))
-    .map((name, k) => ({ name, d: new Vector3(k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0).applyQuaternion(camera.quaternion.clone().invert()) }));
+    .map((name, k) => ({ name, d: new Vector3(k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0).applyQuaternion(camera.quaternion.clone().invert()) }))
+    .filter(({ name, d }) => !(flat && name === 'z' && d.z > 0.999));
   arms.sort((a, b) => a.d.z - b.d.z);
   context.lineCap = 'round';
   context.font = '600 11px system-ui, "Segoe UI", Arial, sans-serif';

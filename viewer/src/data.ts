@@ -58,6 +58,11 @@ export interface Shape {
   edge_lengths?: number;
   /** The first so many edge polylines are borders and creases, drawn stronger. */
   strong_edges: number;
+  /** Faces between two cells of a solid: triangles, and for each the display cell of one side; the next display cell is the other side. */
+  inner?: number;
+  inner_cells?: number;
+  /** For every display cell a number of the cell of the solid that it belongs to (where there are inner faces). */
+  solid_cells?: number;
   fields: FieldInfo[];
   glyphs: GlyphInfo[];
   start: { field: string; glyphs: string };

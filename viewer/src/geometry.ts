@@ -5,84 +5,18 @@ import { FieldInfo, GlyphInfo, PageData, Shape } from './data';
 /** Faces that meet at a smaller angle than this are shaded as one smooth surface, whatever their orientation. */
 const creaseCosine = Math.cos((38 * Math.PI) / 180);
 
-export class ShapeModel {
-  readonly triangles: Uint32Array;
-  readonly triangleCells: Uint32Array;
-  readonly curveVertices: Uint32Array;
-  readonly curveStarts: Uint32Array;
-  readonly curveCells: Uint32Array;
-  /** Vertex pairs of the thin and of the strong element edges. */
-  readonly edges: Uint32Array;
-  readonly strongEdges: Uint32Array;
-  readonly low: [number, number, number] = [Infinity, Infinity, Infinity];
-  readonly high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+/** Triangles that are drawn together, with the display cell of each. */
+export class Faces {
   private readonly cornerStarts: Uint32Array;
   private readonly corners: Uint32Array;
 
-  constructor(readonly data: PageData, readonly shape: Shape) {
-    const none = new Uint32Array(0);
-    const get = (index: number | undefined) => (index === undefined ? none : data.integers(index));
-    this.triangles = get(shape.triangles);
-    this.triangleCells = get(shape.triangle_cells);
-    this.curveVertices = get(shape.curves);
-    this.curveStarts = startsOf(get(shape.curve_lengths));
-    this.curveCells = get(shape.curve_cells);
-    const starts = startsOf(get(shape.edge_lengths));
-    const vertices = get(shape.edges);
-    this.strongEdges = pairs(vertices, starts, 0, shape.strong_edges);
-    this.edges = pairs(vertices, starts, shape.strong_edges, starts.length - 1);
-    this.cornerStarts = new Uint32Array(shape.vertices + 1);
-    for (const v of this.triangles) ++this.cornerStarts[v + 1];
-    for (let v = 0; v < shape.vertices; ++v) this.cornerStarts[v + 1] += this.cornerStarts[v];
-    this.corners = new Uint32Array(this.triangles.length);
-    const fill = this.cornerStarts.slice(0, shape.vertices);
-    this.triangles.forEach((v, corner) => (this.corners[fill[v]++] = corner));
-    for (let s = 0; s < shape.states.length; ++s) {
-      const x = this.positions(s, 1);
-      for (let i = 0; i < x.length; ++i) {
-        if (x[i] < this.low[i % 3]) this.low[i % 3] = x[i];
-        if (x[i] > this.high[i % 3]) this.high[i % 3] = x[i];
-      }
-      if (shape.displacement.length === 0) break;
-    }
-    for (const g of shape.glyphs) {
-      const x = data.floats(g.reference);
-      for (let i = 0; i < x.length; ++i) {
-        if (x[i] < this.low[i % 3]) this.low[i % 3] = x[i];
-        if (x[i] > this.high[i % 3]) this.high[i % 3] = x[i];
-      }
-    }
-  }
-
-  get size(): number {
-    return Math.hypot(this.high[0] - this.low[0], this.high[1] - this.low[1], this.high[2] - this.low[2]) || 1;
-  }
-
-  get hasSurface(): boolean {
-    return this.triangles.length > 0;
-  }
-
-  /** Places of the vertices at a state, with displacements multiplied by `scale`. */
-  positions(state: number, scale: number): Float32Array {
-    return moved(this.data.floats(this.shape.reference), this.shape.displacement.length ? this.data.floats(this.shape.displacement[state]) : undefined, scale);
-  }
-
-  glyphPositions(g: GlyphInfo, state: number, scale: number): Float32Array {
-    return moved(this.data.floats(g.reference), g.displacement.length ? this.data.floats(g.displacement[state]) : undefined, scale);
-  }
-
-  /** Largest displacement over all states. */
-  largestDisplacement(): number {
-    let largest = 0;
-    for (const index of this.shape.displacement) {
-      const u = this.data.floats(index);
-      for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, u[i] ** 2 + u[i + 1] ** 2 + u[i + 2] ** 2);
-    }
-    return Math.sqrt(largest);
-  }
-
-  values(field: FieldInfo, state: number): Float32Array {
-    return this.data.floats(field.arrays[field.arrays.length === 1 ? 0 : state]);
+  constructor(readonly triangles: Uint32Array, readonly cells: Uint32Array, private readonly vertices: number) {
+    this.cornerStarts = new Uint32Array(vertices + 1);
+    for (const v of triangles) ++this.cornerStarts[v + 1];
+    for (let v = 0; v < vertices; ++v) this.cornerStarts[v + 1] += this.cornerStarts[v];
+    this.corners = new Uint32Array(triangles.length);
+    const fill = this.cornerStarts.slice(0, vertices);
+    triangles.forEach((v, corner) => (this.corners[fill[v]++] = corner));
   }
 
   /** Unindexed corner positions and normals of all triangles. Normals of neighbours are averaged up to sign, so that a one-sided surface is smooth too. */
@@ -109,7 +43,7 @@ export class ShapeModel {
       face[k + 2] = nz / n;
     }
     const normal = new Float32Array(3 * t.length);
-    for (let v = 0; v < this.shape.vertices; ++v) this.smoothAt(v, face, area, normal);
+    for (let v = 0; v < this.vertices; ++v) this.smoothAt(v, face, area, normal);
     return { position, normal };
   }
 
@@ -135,6 +69,150 @@ export class ShapeModel {
       normal[3 * c + 1] = n > 0 ? sy / n : y;
       normal[3 * c + 2] = n > 0 ? sz / n : z;
     }
+  }
+
+  /** Vertex pairs of the sides of triangles that no other triangle of the same display cell has: the edges of the cells. Each once. */
+  cellEdges(): Uint32Array {
+    const uses = new Map<number, number>();
+    const key = (a: number, b: number) => Math.min(a, b) * this.vertices + Math.max(a, b);
+    const out: number[] = [];
+    const drawn = new Set<number>();
+    for (let begin = 0; begin < this.cells.length; ) {
+      let end = begin;
+      while (end < this.cells.length && this.cells[end] === this.cells[begin]) ++end;
+      uses.clear();
+      for (let c = 3 * begin; c < 3 * end; ++c) {
+        const side = key(this.triangles[c], this.triangles[c % 3 === 2 ? c - 2 : c + 1]);
+        uses.set(side, (uses.get(side) ?? 0) + 1);
+      }
+      for (const [side, count] of uses) {
+        if (count !== 1 || drawn.has(side)) continue;
+        drawn.add(side);
+        out.push(Math.floor(side / this.vertices), side % this.vertices);
+      }
+      begin = end;
+    }
+    return new Uint32Array(out);
+  }
+}
+
+export class ShapeModel {
+  /** What is seen from outside. */
+  readonly faces: Faces;
+  readonly curveVertices: Uint32Array;
+  readonly curveStarts: Uint32Array;
+  readonly curveCells: Uint32Array;
+  /** Vertex pairs along the curves. */
+  readonly curveSegments: Uint32Array;
+  /** Vertex pairs of the thin and of the strong element edges. */
+  readonly edges: Uint32Array;
+  readonly strongEdges: Uint32Array;
+  readonly low: [number, number, number] = [Infinity, Infinity, Infinity];
+  readonly high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+
+  constructor(readonly data: PageData, readonly shape: Shape) {
+    const none = new Uint32Array(0);
+    const get = (index: number | undefined) => (index === undefined ? none : data.integers(index));
+    this.faces = new Faces(get(shape.triangles), get(shape.triangle_cells), shape.vertices);
+    this.curveVertices = get(shape.curves);
+    this.curveStarts = startsOf(get(shape.curve_lengths));
+    this.curveCells = get(shape.curve_cells);
+    this.curveSegments = pairs(this.curveVertices, this.curveStarts, 0, this.curveStarts.length - 1);
+    const starts = startsOf(get(shape.edge_lengths));
+    const vertices = get(shape.edges);
+    this.strongEdges = pairs(vertices, starts, 0, shape.strong_edges);
+    this.edges = pairs(vertices, starts, shape.strong_edges, starts.length - 1);
+    for (let s = 0; s < shape.states.length; ++s) {
+      this.include(this.positions(s, 1));
+      if (shape.displacement.length === 0) break;
+    }
+    for (const g of shape.glyphs) this.include(data.floats(g.reference));
+  }
+
+  private include(x: Float32Array): void {
+    for (let i = 0; i < x.length; ++i) {
+      if (x[i] < this.low[i % 3]) this.low[i % 3] = x[i];
+      if (x[i] > this.high[i % 3]) this.high[i % 3] = x[i];
+    }
+  }
+
+  get size(): number {
+    return Math.hypot(this.high[0] - this.low[0], this.high[1] - this.low[1], this.high[2] - this.low[2]) || 1;
+  }
+
+  get hasSurface(): boolean {
+    return this.faces.triangles.length > 0;
+  }
+
+  /** Whether a cut shows the cells inside. */
+  get hasInside(): boolean {
+    return this.shape.inner !== undefined;
+  }
+
+  /** What is seen from outside when the cells of a solid whose middle (mean of the corners of their faces) lies beyond the plane are taken away. */
+  cut(x: Float32Array, normal: [number, number, number], offset: number): Faces {
+    const { shape, data } = this;
+    const inner = data.integers(shape.inner!), side = data.integers(shape.inner_cells!), solid = data.integers(shape.solid_cells!);
+    const outer = this.faces;
+    const height = new Float32Array(solid.reduce((most, cell) => Math.max(most, cell), 0) + 1), count = new Uint32Array(height.length);
+    const add = (cell: number, triangles: Uint32Array, t: number) => {
+      for (let k = 0; k < 3; ++k) {
+        const v = 3 * triangles[3 * t + k];
+        height[cell] += normal[0] * x[v] + normal[1] * x[v + 1] + normal[2] * x[v + 2];
+      }
+      count[cell] += 3;
+    };
+    for (let t = 0; t < outer.cells.length; ++t) add(solid[outer.cells[t]], outer.triangles, t);
+    for (let t = 0; t < side.length; ++t) {
+      add(solid[side[t]], inner, t);
+      add(solid[side[t] + 1], inner, t);
+    }
+    const stays = (displayCell: number) => height[solid[displayCell]] <= offset * count[solid[displayCell]];
+    const triangles: number[] = [], cells: number[] = [];
+    const take = (from: Uint32Array, t: number, displayCell: number) => {
+      triangles.push(from[3 * t], from[3 * t + 1], from[3 * t + 2]);
+      cells.push(displayCell);
+    };
+    for (let t = 0; t < outer.cells.length; ++t) if (stays(outer.cells[t])) take(outer.triangles, t, outer.cells[t]);
+    for (let t = 0; t < side.length; ++t) {
+      const first = stays(side[t]);
+      if (first !== stays(side[t] + 1)) take(inner, t, first ? side[t] : side[t] + 1);
+    }
+    return new Faces(new Uint32Array(triangles), new Uint32Array(cells), shape.vertices);
+  }
+
+  /** Places of the vertices at a state, with displacements multiplied by `scale`. */
+  positions(state: number, scale: number): Float32Array {
+    return moved(this.data.floats(this.shape.reference), this.shape.displacement.length ? this.data.floats(this.shape.displacement[state]) : undefined, scale);
+  }
+
+  glyphPositions(g: GlyphInfo, state: number, scale: number): Float32Array {
+    return moved(this.data.floats(g.reference), g.displacement.length ? this.data.floats(g.displacement[state]) : undefined, scale);
+  }
+
+  /** Whether the glyphs of a set point out of the plane of a flat shape. */
+  spatial(g: GlyphInfo): boolean {
+    if (g.kind === 'frame') return true;
+    if (g.kind === 'ellipsoid') return false;
+    return g.arrays.some((index) => {
+      const v = this.data.floats(index);
+      for (let i = 0; i < v.length; i += 3) if (Math.abs(v[i + 2]) > 0.1 * Math.hypot(v[i], v[i + 1])) return true;
+      return false;
+    });
+  }
+
+  /** Largest displacement over all states. */
+  largestDisplacement(): number {
+    let largest = 0;
+    for (const index of this.shape.displacement) {
+      const u = this.data.floats(index);
+      for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, u[i] ** 2 + u[i + 1] ** 2 + u[i + 2] ** 2);
+    }
+    return Math.sqrt(largest);
+  }
+
+  values(field: FieldInfo, state: number): Float32Array {
+    return this.data.floats(field.arrays[field.arrays.length === 1 ? 0 : state]);
   }
 }
 
@@ -266,10 +344,13 @@ export function tubes(x: Float32Array, vertices: Uint32Array, starts: Uint32Arra
   return { position: new Float32Array(position), normal: new Float32Array(normal), vertex, cell, index };
 }
 
-/** An evenly spread subset of points, about `wanted` of them: points are taken in order where none is nearer than a spacing, which is found by bisection. */
+/** An evenly spread subset of points, about `wanted` of them: on a grid where the points fill a square or a box, else points in order where none is nearer
+ *  than a spacing, which is found by bisection. */
 export function spread(x: Float32Array, wanted: number): Uint32Array {
   const n = x.length / 3;
   if (n <= wanted) return Uint32Array.from({ length: n }, (_, i) => i);
+  const regular = onGrid(x, wanted);
+  if (regular) return regular;
   let size = 0;
   for (let k = 0; k < 3; ++k) {
     let low = Infinity, high = -Infinity;
@@ -285,6 +366,44 @@ export function spread(x: Float32Array, wanted: number): Uint32Array {
     else {
       large = h;
       best = Uint32Array.from(kept);
+    }
+  }
+  return best;
+}
+
+/** The points nearest to the places of a grid from border to border, for the grid of 0.6 to 1 times `wanted` places that lies closest to the points; nothing where
+ *  the points fill less than 70 % of such a grid. */
+function onGrid(x: Float32Array, wanted: number): Uint32Array | undefined {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < x.length; ++i) (low[i % 3] = Math.min(low[i % 3], x[i])), (high[i % 3] = Math.max(high[i % 3], x[i]));
+  const extent = [0, 1, 2].map((k) => high[k] - low[k]);
+  const longest = Math.max(...extent), wide = [0, 1, 2].filter((k) => extent[k] > 1e-6 * longest);
+  if (wide.length === 0) return undefined;
+  const tried = new Set<string>();
+  let best: Uint32Array | undefined, least = Infinity;
+  for (let along = 2; along <= wanted; ++along) {
+    const cells = [0, 1, 2].map((k) => (wide.includes(k) ? Math.max(1, Math.round((along * extent[k]) / longest)) : 0));
+    const places = cells.reduce((product, m) => product * (m + 1), 1);
+    if (places > 1.3 * wanted) break;
+    if (places < 0.6 * wanted || tried.has(cells.join())) continue;
+    tried.add(cells.join());
+    const nearest = new Map<number, [number, number]>();
+    for (let i = 0; 3 * i < x.length; ++i) {
+      let key = 0, far = 0;
+      for (const k of wide) {
+        const at = ((x[3 * i + k] - low[k]) / extent[k]) * cells[k], to = Math.round(at);
+        key = key * (cells[k] + 1) + to;
+        far = Math.max(far, Math.abs(at - to));
+      }
+      const known = nearest.get(key);
+      if (!known || far < known[1] - 1e-6) nearest.set(key, [i, far]);
+    }
+    const close = [...nearest.values()].filter(([, far]) => far < 0.3);
+    if (close.length < 0.7 * places || close.length > wanted) continue;
+    const off = close.reduce((sum, [, far]) => sum + far, 0) / close.length + 0.1 * (1 - close.length / wanted);
+    if (off < least) {
+      least = off;
+      best = Uint32Array.from(close.map(([i]) => i));
     }
   }
   return best;

@@ -1,7 +1,8 @@
 // Arrows, rods, director triads and ellipsoids as instances of one small mesh each.
 
 import { BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, InstancedBufferAttribute, InstancedBufferGeometry, SphereGeometry } from 'three';
-import { directionColour } from './colours';
+import { interpolatePlasma } from 'd3-scale-chromatic';
+import { directionColour, parseColour } from './colours';
 import { GlyphInfo } from './data';
 import { eigenvectors } from './eigen';
 
@@ -106,7 +107,7 @@ export function glyphGeometry(kind: GlyphInfo['kind'], x: Float32Array, values: 
     else if (kind === 'ellipsoid') {
       const { vectors, values: e } = eigenvectors(v);
       columns = vectors.flatMap((axis, k) => axis.map((c) => 2 * size * Math.sqrt(Math.max(e[k], 1e-6 * Math.max(...e, 1e-300))) * c));
-      colour = anisotropyColour(e);
+      colour = parseColour(anisotropyColour(anisotropy(e))).map(linear) as Rgb;
     } else {
       const length = Math.hypot(v[0], v[1], v[2]);
       if (length === 0) continue;
@@ -133,11 +134,14 @@ function linear(byte: number): number {
   return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
 }
 
-/** Grey for a ball, warm for a needle or a disc: fractional anisotropy of the eigenvalues. */
-function anisotropyColour(e: number[]): Rgb {
+/** Fractional anisotropy of a symmetric positive matrix with these eigenvalues: 0 for a ball, 1 for the thinnest needle (Basser and Pierpaoli 1996). */
+function anisotropy(e: number[]): number {
   const mean = (e[0] + e[1] + e[2]) / 3;
   const spread = Math.hypot(e[0] - mean, e[1] - mean, e[2] - mean);
-  const all = Math.hypot(e[0], e[1], e[2]) || 1;
-  const s = Math.min(1, Math.sqrt(1.5) * (spread / all));
-  return [0.30 + 0.45 * s, 0.42 - 0.22 * s, 0.55 - 0.47 * s];
+  return Math.min(1, Math.sqrt(1.5) * (spread / (Math.hypot(e[0], e[1], e[2]) || 1)));
+}
+
+/** Colour of a fractional anisotropy, as CSS has it. The ends of plasma are too dark and too light for a ground of either kind. */
+export function anisotropyColour(a: number): string {
+  return interpolatePlasma(0.15 + 0.7 * a);
 }

@@ -1,6 +1,7 @@
 // The legend under the picture, on any 2D canvas: a colour bar with ticks, or the disc of directions, or the keys of the glyphs.
 
 import { colourMap, directionColour } from './colours';
+import { anisotropyColour } from './glyphs';
 import { FieldInfo, GlyphInfo } from './data';
 import { powers, short, ticks } from './numbers';
 import { ShownRange } from './stage';
@@ -119,16 +120,14 @@ function drawGlyphKey(context: CanvasRenderingContext2D, right: number, y: numbe
   const words = `${{ arrow: 'arrows', rod: 'rods', frame: '', ellipsoid: 'ellipsoids' }[glyphs.kind]} ${glyphs.name}`.trim();
   let left = right - context.measureText(words).width;
   context.font = font(11.5);
-  const keys: [string, string][] =
-    glyphs.kind === 'frame'
-      ? [['#e76f54', 'd₁'], ['#61bc83', 'd₂'], ['#5a8fe3', 'd₃']]
-      : glyphs.kind === 'ellipsoid' ? [['#9aaec3', 'ball'], ['#e2823f', 'needle, disc']] : [];
+  const keys: [string, string][] = glyphs.kind === 'frame' ? [['#e76f54', 'd₁'], ['#61bc83', 'd₂'], ['#5a8fe3', 'd₃']] : [];
   const total = keys.reduce((sum, [, text]) => sum + 14 + context.measureText(text).width + 10, -10);
-  left = Math.min(left, right - total);
+  left = Math.min(left, right - (glyphs.kind === 'ellipsoid' ? anisotropyWidth(context) : total));
   context.font = font(12.5, 600);
   context.fillStyle = ink;
   context.fillText(words, left, y + 13);
   context.font = font(11.5);
+  if (glyphs.kind === 'ellipsoid') drawAnisotropy(context, left, y, soft);
   let at = left;
   for (const [paint, text] of keys) {
     context.fillStyle = paint;
@@ -138,4 +137,23 @@ function drawGlyphKey(context: CanvasRenderingContext2D, right: number, y: numbe
     at += 14 + context.measureText(text).width + 10;
   }
   return left;
+}
+
+const anisotropyWords = 'anisotropy: 0', anisotropyBar = 90;
+
+function anisotropyWidth(context: CanvasRenderingContext2D): number {
+  return context.measureText(anisotropyWords).width + anisotropyBar + context.measureText('1').width + 14;
+}
+
+function drawAnisotropy(context: CanvasRenderingContext2D, left: number, y: number, soft: string): void {
+  const begin = left + context.measureText(anisotropyWords).width + 7;
+  const bar = context.createLinearGradient(begin, 0, begin + anisotropyBar, 0);
+  for (let i = 0; i <= 16; ++i) bar.addColorStop(i / 16, anisotropyColour(i / 16));
+  context.fillStyle = soft;
+  context.fillText(anisotropyWords, left, y + 32);
+  context.fillText('1', begin + anisotropyBar + 7, y + 32);
+  context.fillStyle = bar;
+  context.beginPath();
+  context.roundRect(begin, y + 22.5, anisotropyBar, 11, 2);
+  context.fill();
 }

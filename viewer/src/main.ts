@@ -47,12 +47,13 @@ function startView(shape: NonNullable<Header['shape']>, model: ShapeModel): View
     opacity: inside ? 0.25 : 1,
     scale: 1,
     glyphs: g ? g.name : '',
-    glyphSize: 0.85,
-    glyphDensity: Math.min(shape.flat ? 500 : inside ? 700 : 300, Math.max(10, ...shape.glyphs.map((set) => model.data.header.arrays[set.reference].count))),
+    glyphSize: g?.kind === 'ellipsoid' ? 1 : 0.85,
+    glyphDensity: Math.min(g?.kind === 'frame' ? 200 : shape.flat ? 450 : inside ? 700 : 300, Math.max(10, ...shape.glyphs.map((set) => model.data.header.arrays[set.reference].count))),
     clip: '',
     clipAt: 0.5,
     clipFlip: false,
     axes: true,
+    trail: shape.sphere === true && shape.states.length > 2,
   };
 }
 

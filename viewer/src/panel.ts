@@ -49,6 +49,7 @@ export function buildPanel(container: HTMLElement, model: ShapeModel, view: View
   named(show.add(view, 'surface').name(model.hasSurface ? 'surface' : 'curve'), 'surface');
   if (model.hasSurface) named(show.add(view, 'edges').name('element edges'), 'edges');
   if (model.hasSurface) named(show.add(view, 'opacity', 0.1, 1, 0.05).name('opacity'), 'opacity');
+  if (!model.hasSurface && shape.displacement.length) named(show.add(view, 'trail').name('earlier states'), 'trail');
   named(show.add(view, 'axes').name('axes'), 'axes');
 
   if (shape.glyphs.length) {

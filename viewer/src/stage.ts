@@ -7,7 +7,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { frame, goodDirection } from './camera';
 import { colourMap, table } from './colours';
 import { FieldInfo } from './data';
-import { averaged, Extent, extent, ShapeModel, spread, tubes } from './geometry';
+import { averaged, Extent, extent, Faces, ShapeModel, spread, tubes } from './geometry';
 import { glyphGeometry, largestGlyph } from './glyphs';
 import { ClipPlane, glyphMaterial, lineMaterial, mapTexture, Mode, setClip, surfaceMaterial } from './shading';
 import { View } from './view';
@@ -31,6 +31,10 @@ export class Stage {
   private readonly thin: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly strong: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly sphere: Mesh<BufferGeometry, ShaderMaterial>;
+  /** Curves at earlier states. */
+  private readonly trail: Mesh<InstancedBufferGeometry, ShaderMaterial>;
+  /** What is drawn of the surface: all of it, or what a cut leaves. */
+  private faces: Faces;
   private glyph: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly extents = new Map<string, Extent>();
   private readonly glyphSizes = new Map<string, number>();
@@ -39,7 +43,7 @@ export class Stage {
   private tubeCells: number[] = [];
   private texture?: DataTexture;
   private textureName = '';
-  private drawn = { places: '', values: '', glyphs: '' };
+  private drawn = { places: '', values: '', glyphs: '', trail: '' };
   private edgeLength = 1;
   private pending = false;
   private ink = new Color(0x000000);
@@ -55,12 +59,17 @@ export class Stage {
     this.glyph = new Mesh(new InstancedBufferGeometry(), glyphMaterial());
     this.sphere = new Mesh(new SphereGeometry(model.shape.sphere ? 0.994 : 0, 96, 48), surfaceMaterial());
     (this.sphere.material.uniforms.plain.value as Vector3).set(0.78, 0.8, 0.83);
-    for (const mesh of [this.surface, this.tube, this.thin, this.strong, this.glyph, ...(model.shape.sphere ? [this.sphere] : [])]) {
+    this.trail = new Mesh(new InstancedBufferGeometry(), lineMaterial());
+    this.faces = model.faces;
+    // On a flat shape the glyphs are drawn over it, whole.
+    this.glyph.material.transparent = model.shape.flat;
+    for (const mesh of [this.surface, this.tube, this.thin, this.strong, this.trail, this.glyph, ...(model.shape.sphere ? [this.sphere] : [])]) {
       mesh.frustumCulled = false;
       this.scene.add(mesh);
     }
     this.thin.renderOrder = 1;
     this.strong.renderOrder = 2;
+    this.glyph.renderOrder = 3;
   }
 
   /** OrbitControls turn about the camera's upward direction at their birth. */
@@ -96,7 +105,13 @@ export class Stage {
   }
 
   up(): Vector3 {
-    return this.model.shape.flat ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+    return this.model.shape.flat && !this.tilted() ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+  }
+
+  /** A flat shape with glyphs that point out of its plane is seen from the side. */
+  private tilted(): boolean {
+    const glyphs = this.model.shape.glyphs.find((g) => g.name === this.view.glyphs);
+    return this.model.shape.flat && glyphs !== undefined && this.model.spatial(glyphs);
   }
 
   /** Looks from `direction` (or from where most is seen) at the whole shape: in the states from first to last, or in the one that is shown. */
@@ -108,9 +123,11 @@ export class Stage {
     const glyphs = model.shape.glyphs.find((g) => g.name === view.glyphs);
     if (glyphs) shown.push(model.glyphPositions(glyphs, still ? view.state : 0, view.scale));
     if (model.shape.sphere) shown.push(Float32Array.from(this.sphere.geometry.getAttribute('position').array));
-    const upward = up ? new Vector3(...up) : this.up();
-    const from = direction ? new Vector3(...direction) : model.shape.flat ? new Vector3(0, 0, 1) : goodDirection(last, upward);
-    const target = frame(this.camera, shown, from, upward, model.shape.flat || glyphs ? 1.16 : 1.08);
+    const straight = direction !== undefined && direction[0] === 0 && direction[1] === 0;
+    const upward = up ? new Vector3(...up) : straight ? new Vector3(0, 1, 0) : this.up();
+    const flat = this.tilted() ? new Vector3(-0.28, -1, 1.25) : new Vector3(0, 0, 1);
+    const from = direction ? new Vector3(...direction) : model.shape.flat ? flat : goodDirection(last, upward);
+    const target = frame(this.camera, shown, from, upward, model.shape.flat || glyphs ? 1.12 : 1.08);
     this.controls.dispose();
     this.controls = this.makeControls();
     this.controls.target.copy(target);
@@ -209,10 +226,17 @@ export class Stage {
 
   private refresh(): void {
     const { view, model } = this;
-    const places = `${model.shape.displacement.length ? view.state : 0}/${view.scale}`;
+    const cells = model.hasInside && view.clip !== '';
+    const plane = this.clipPlane();
+    const places = `${model.shape.displacement.length ? view.state : 0}/${view.scale}/${cells ? `${plane.normal}/${plane.offset}` : ''}`;
     if (places !== this.drawn.places) {
-      this.place();
-      this.drawn = { places, values: '', glyphs: '' };
+      this.place(cells ? plane : undefined);
+      this.drawn = { ...this.drawn, places, values: '', glyphs: '' };
+    }
+    const trail = view.trail ? `${view.state}/${view.scale}` : 'none';
+    if (trail !== this.drawn.trail) {
+      this.leaveTrail();
+      this.drawn.trail = trail;
     }
     const values = `${view.field}/${view.state}/${view.smooth}`;
     if (values !== this.drawn.values) {
@@ -231,7 +255,7 @@ export class Stage {
     }
     const field = this.field(view.field);
     const range = this.range();
-    const plane = this.clipPlane();
+    const whole: ClipPlane = { normal: [0, 0, 0], offset: 1 };
     for (const mesh of [this.surface, this.tube]) {
       const u = mesh.material.uniforms;
       u.mode.value = !field ? Mode.plain : field.kind === 'scalar' ? Mode.scalar : Mode.direction;
@@ -242,8 +266,8 @@ export class Stage {
       }
       u.opacity.value = view.opacity;
       mesh.material.transparent = view.opacity < 1;
-      mesh.material.depthWrite = view.opacity >= 1;
-      setClip(mesh.material, plane);
+      mesh.material.depthWrite = view.opacity >= 1 && !model.shape.flat;
+      setClip(mesh.material, cells ? whole : plane);
     }
     this.surface.visible = view.surface && model.hasSurface;
     this.tube.visible = view.surface && model.curveVertices.length > 0;
@@ -259,20 +283,23 @@ export class Stage {
     for (const [mesh, alpha, width] of [
       [this.thin, faint, 1.0],
       [this.strong, 0.85, 1.6],
+      [this.trail, 0.5, 1.3],
     ] as const) {
       const u = mesh.material.uniforms;
       (u.ink.value as Vector4).set(this.ink.r, this.ink.g, this.ink.b, view.surface ? alpha : Math.max(alpha, 0.6));
       u.width.value = width * ratio;
       (u.screen.value as Vector3).set(buffer.x, buffer.y, 1);
-      setClip(mesh.material, plane);
+      setClip(mesh.material, cells ? whole : plane);
     }
   }
 
-  private place(): void {
+  /** Puts everything in its place; of solids whose inside is known, cells beyond `cut` are taken away. */
+  private place(cut?: ClipPlane): void {
     const { model, view } = this;
     const x = model.positions(view.state, view.scale);
+    this.faces = cut ? model.cut(x, cut.normal, cut.offset) : model.faces;
     if (model.hasSurface) {
-      const { position, normal } = model.corner(x);
+      const { position, normal } = this.faces.corner(x);
       const g = this.surface.geometry;
       g.setAttribute('position', new BufferAttribute(position, 3));
       g.setAttribute('normal', new BufferAttribute(normal, 3));
@@ -288,21 +315,35 @@ export class Stage {
       this.tube.geometry.dispose();
       this.tube.geometry = g;
     }
-    this.line(this.thin, x, model.edges);
-    this.line(this.strong, x, model.strongEdges);
+    this.line(this.thin, x, cut ? this.faces.cellEdges() : model.edges);
+    this.line(this.strong, x, cut ? among(model.strongEdges, this.faces.triangles) : model.strongEdges);
     this.edgeLength = this.meanCellSize(x);
+  }
+
+  /** Curves as they were at up to a dozen states before the one that is shown. */
+  private leaveTrail(): void {
+    const { model, view } = this;
+    const count = view.trail ? Math.min(12, view.state) : 0;
+    const places: Float32Array[] = [], ends: number[] = [];
+    for (let k = 0; k < count; ++k) {
+      for (const v of model.curveSegments) ends.push(v + k * model.shape.vertices);
+      places.push(model.positions(Math.round((k * view.state) / count), view.scale));
+    }
+    const all = new Float32Array(3 * count * model.shape.vertices);
+    places.forEach((x, k) => all.set(x, 3 * k * model.shape.vertices));
+    this.line(this.trail, all, Uint32Array.from(ends));
   }
 
   /** Side of a square as large as the mean cell, for the strength of the edges on the screen. */
   private meanCellSize(x: Float32Array): number {
-    const t = this.model.triangles;
+    const t = this.faces.triangles;
     let area = 0;
     for (let i = 0; i < t.length; i += 3) {
       const [a, b, c] = [3 * t[i], 3 * t[i + 1], 3 * t[i + 2]];
       const u = [x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]], v = [x[c] - x[a], x[c + 1] - x[a + 1], x[c + 2] - x[a + 2]];
       area += 0.5 * Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
     }
-    return t.length ? Math.sqrt(area / Math.max(1, this.model.shape.cells)) : this.model.size;
+    return t.length ? Math.sqrt(area / Math.max(1, new Set(this.faces.cells).size)) : this.model.size;
   }
 
   private line(mesh: Mesh<InstancedBufferGeometry, ShaderMaterial>, x: Float32Array, ends: Uint32Array): void {
@@ -348,7 +389,7 @@ export class Stage {
       geometry.setAttribute('scalar', new BufferAttribute(scalar, 2));
       geometry.setAttribute('direction', new BufferAttribute(direction, 3));
     };
-    if (model.hasSurface) fill(this.surface.geometry, model.triangles, (corner) => model.triangleCells[(corner / 3) | 0], 3);
+    if (model.hasSurface) fill(this.surface.geometry, this.faces.triangles, (corner) => this.faces.cells[(corner / 3) | 0], 3);
     if (model.curveVertices.length) fill(this.tube.geometry, this.tubeVertices, (i) => this.tubeCells[i], 0);
   }
 
@@ -389,4 +430,12 @@ export class Stage {
     if (!this.model.hasSurface) return Math.max(sides[0] / n, 0.05 * sides[0]);
     return Math.min(0.09 * sides[0], Math.cbrt((sides[0] * Math.max(sides[1], 0.1 * sides[0]) * Math.max(sides[2], 0.1 * sides[0])) / n));
   }
+}
+
+/** The segments whose ends both are among the vertices of the triangles. */
+function among(segments: Uint32Array, triangles: Uint32Array): Uint32Array {
+  const seen = new Set(triangles);
+  const out: number[] = [];
+  for (let i = 0; i < segments.length; i += 2) if (seen.has(segments[i]) && seen.has(segments[i + 1])) out.push(segments[i], segments[i + 1]);
+  return new Uint32Array(out);
 }

@@ -23,6 +23,8 @@ export interface View {
   clipAt: number;
   clipFlip: boolean;
   axes: boolean;
+  /** Curves are drawn as they were at earlier states, too. */
+  trail: boolean;
 }
 
 /** What may stand behind the # of the page's address. */

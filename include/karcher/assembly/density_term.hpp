@@ -158,17 +158,16 @@ class DensityTerm : public Term {
     return model_.template at<T>(std::span<const T>(values_.data() + batches_.point_index(b, q) * parameters_.size(), parameters_.size()));
   }
 
-  template <class S, std::size_t... f>
-  auto jets(const States& states, const Vec<S, L>& y, std::index_sequence<f...>) const {
-    return std::tuple{jet_of<S, f>(states, y)...};
+  /// W as a function of the local coordinates of all fields.
+  template <class S, class Density, std::size_t... f>
+  static S density_at(const Density& rho, const States& states, std::index_sequence<f...>) {
+    return density_detail::value(rho, jet_of<S, f>(states)...);
   }
   template <class S, std::size_t f>
-  auto jet_of(const States& states, const Vec<S, L>& y) const {
+  static auto jet_of(const States& states) {
     const auto& interpolation = std::get<f>(states).interpolation;
     using I = std::tuple_element_t<f, std::tuple<Interpolation...>>;
-    Vec<S, local[f]> mine;
-    for (int i = 0; i < local[f]; ++i) mine[i] = y[offset(f) + i];
-    return jet_at<M<f>, D, typename I::Chart, T, S>(interpolation.jet().value, interpolation.frame(), mine);
+    return seeded_jet<M<f>, D, typename I::Chart, S>(interpolation.jet().value, interpolation.frame(), interpolation.local_coordinates(), offset(f));
   }
 
   template <std::size_t... f>
@@ -194,24 +193,13 @@ class DensityTerm : public Term {
         continue;
       }
       (std::get<f>(states).interpolation.linearize(std::get<f>(states).nodes.data(), std::get<f>(states).maps), ...);
-      Vec<T, L> y0;
-      ((place<f>(std::get<f>(states).interpolation.local_coordinates(), y0)), ...);
       Vec<T, L> covector;
       if (want == Want::gradient) {
-        using S = Dual<T, L>;
-        Vec<S, L> y;
-        for (int i = 0; i < L; ++i) {
-          y[i].v = y0[i];
-          y[i].d[static_cast<std::size_t>(i)] = T(1.0);
-        }
-        const S w = std::apply([&](const auto&... jet) { return density_detail::value(rho, jet...); }, jets<S>(states, y, all));
+        const auto w = density_at<Dual<T, L>>(rho, states, all);
         energy += weight * w.v;
         for (int i = 0; i < L; ++i) covector[i] = weight * w.d[static_cast<std::size_t>(i)];
       } else {
-        using S = Jet<T, L>;
-        Vec<S, L> y;
-        for (int i = 0; i < L; ++i) y[i] = S::variable(y0[i], i);
-        S w = std::apply([&](const auto&... jet) { return density_detail::value(rho, jet...); }, jets<S>(states, y, all));
+        auto w = density_at<Jet<T, L>>(rho, states, all);
         w.scale(weight);
         energy += w.v;
         for (int i = 0; i < L; ++i) covector[i] = w.gradient(i);
@@ -274,10 +262,6 @@ class DensityTerm : public Term {
       next += static_cast<std::size_t>(kind.shapes[i].nodes * kind.blocks[static_cast<std::size_t>(kind.first_block[i])].dim);
     }
     return begin;
-  }
-  template <std::size_t f>
-  static void place(const Vec<T, local[f]>& mine, Vec<T, L>& y) {
-    for (int i = 0; i < local[f]; ++i) y[offset(f) + i] = mine[i];
   }
   template <std::size_t f>
   static Vec<T, local[f]> part(const Vec<T, L>& y) {

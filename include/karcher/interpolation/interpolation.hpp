@@ -102,6 +102,71 @@ FieldJet<M, D, S> jet_at(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>&
   return jet;
 }
 
+namespace chart_detail {
+template <class T, int L>
+Jet<T, L> variable(const T& x, int i, const Jet<T, L>*) {
+  return Jet<T, L>::variable(x, i);
+}
+template <class T, int L>
+Dual<T, L> variable(const T& x, int i, const Dual<T, L>*) {
+  Dual<T, L> r;
+  r.v = x;
+  r.d[static_cast<std::size_t>(i)] = T(1.0);
+  return r;
+}
+template <class T, int L>
+T& slope(Jet<T, L>& x, int i) {
+  return x.g[static_cast<std::size_t>(i)];
+}
+template <class T, int L>
+T& slope(Dual<T, L>& x, int i) {
+  return x.d[static_cast<std::size_t>(i)];
+}
+}  // namespace chart_detail
+
+/// The jet as a function of local coordinates that are variables of S: the coordinates y (w = 0) of this field are the variables from `first` on.
+/// S is Jet<T, L> or Dual<T, L>.
+template <class M, int D, class Chart, class S, class T>
+FieldJet<M, D, S> seeded_jet(const Point<M, T>& q, const Mat<T, M::ambient, M::dim>& e, const Vec<T, local_dim<M, D>>& y, int first) {
+  using chart_detail::slope;
+  constexpr int k = M::dim;
+  if constexpr (requires { M::unit_scale; } && std::is_same_v<Chart, ProjectionChart>) {
+    // With the metric s^2 times that of the ambient space, to second order in w:
+    // q(w) = q + E w - |w|^2/(2 s^2) q,  d_a q = E k_a - (w.k_a)/s^2 (q + E w) - |w|^2/(2 s^2) E k_a
+    const T curvature = T(1.0 / (M::unit_scale * M::unit_scale));
+    FieldJet<M, D, S> jet;
+    for (int c = 0; c < M::ambient; ++c) {
+      const T back = -(curvature * q[c]);
+      jet.value[c].v = q[c];
+      for (int i = 0; i < k; ++i) slope(jet.value[c], first + i) = e(c, i);
+      if constexpr (requires(S s) { s.h; })
+        for (int i = 0; i < k; ++i) jet.value[c].h[S::index(first + i, first + i)] = back;
+      for (int a = 0; a < D; ++a) {
+        S& d = jet.d[static_cast<std::size_t>(a)][c];
+        const int at = (1 + a) * k;
+        T along = T(0.0);
+        for (int i = 0; i < k; ++i) {
+          along += e(c, i) * y[at + i];
+          slope(d, first + i) = back * y[at + i];
+          slope(d, first + at + i) = e(c, i);
+        }
+        d.v = along;
+        if constexpr (requires(S s) { s.h; })
+          for (int i = 0; i < k; ++i) {
+            d.h[S::index(first + i, first + at + i)] = back;
+            for (int j = i; j < k; ++j)
+              d.h[S::index(first + i, first + j)] = -(curvature * (e(c, i) * y[at + j] + e(c, j) * y[at + i] + (i == j ? along : T(0.0))));
+          }
+      }
+    }
+    return jet;
+  } else {
+    Vec<S, local_dim<M, D>> variables;
+    for (int i = 0; i < local_dim<M, D>; ++i) variables[i] = chart_detail::variable(y[i], first + i, static_cast<const S*>(nullptr));
+    return jet_at<M, D, Chart, T, S>(q, e, variables);
+  }
+}
+
 /// Gaussian elimination of G X = B without pivoting, for the well-conditioned small matrices of the interpolations. Returns where all pivots are positive.
 template <class T, int N, int K>
 MaskOf<T> solve_in_place(Mat<T, N, N> g, Mat<T, N, K>& b) {

@@ -4,6 +4,7 @@
 
 #include "karcher/interpolation/linear.hpp"
 #include "karcher/interpolation/sphere_projection.hpp"
+#include "karcher/interpolation/unit_vector_mean.hpp"
 #include "karcher/interpolation/weighted_mean.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rule.hpp"
@@ -17,22 +18,18 @@ inline constexpr bool is_linear = false;
 template <int N>
 inline constexpr bool is_linear<Euclidean<N>> = true;
 
-/// Unit spheres of an ambient space, whose projection is x / |x|.
-template <class M>
-inline constexpr bool is_unit_sphere = false;
-template <int N>
-inline constexpr bool is_unit_sphere<Sphere<N>> = true;
-template <>
-inline constexpr bool is_unit_sphere<Unitary> = true;
-
 namespace rules_detail {
 template <class M, int D, class T>
 struct Projection {
   using type = WeightedMean<M, ChordFunction, D, T>;
 };
 template <class M, int D, class T>
-requires(is_unit_sphere<M>) struct Projection<M, D, T> {
+requires(M::unit_scale == 1) struct Projection<M, D, T> {
   using type = SphereProjection<M, D, T>;
+};
+template <class M, int D, class T>
+requires(M::unit_scale == 2) struct Projection<M, D, T> {
+  using type = UnitVectorMean<M, SquarePotential, D, T>;
 };
 template <class M, int D, class T>
 requires(is_linear<M>) struct Projection<M, D, T> {
@@ -41,6 +38,11 @@ requires(is_linear<M>) struct Projection<M, D, T> {
 template <class M, int D, class T>
 struct Geodesic {
   using type = WeightedMean<M, LogFunction, D, T>;
+};
+template <class M, int D, class T>
+requires requires { M::unit_scale; }
+struct Geodesic<M, D, T> {
+  using type = UnitVectorMean<M, ArcPotential, D, T>;
 };
 template <class M, int D, class T>
 requires(is_linear<M>) struct Geodesic<M, D, T> {

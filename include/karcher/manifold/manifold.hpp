@@ -76,6 +76,8 @@ concept ProjectionIsWhole = requires(Point<M> p) {
 /// Optional:
 /// M::project(x)               closest point of the manifold to an ambient vector (makes the projection rule available)
 /// M::chord(q, p)              tangent vector at q that is the gradient in q of -1/2 |p - q|^2 (ambient): the projection of p to T_qM; comes with project
+/// M::unit_scale               points are the unit vectors of R^ambient, log is that of the sphere, the metric s^2 times the ambient one: s = 1; or s = 2, where p
+///                             and -p are besides the same point (rotations). Interpolation has closed forms then (unit_vector_mean.hpp)
 /// M::origin()                 some point, at double: where the law suite begins
 /// M::LogAround<S, T>, M::ChordAround<S, T>   log_q(w)(p(v)) and chord in a moving frame, written by hand (unit_log_around.hpp, spd.hpp) for weighted_mean.hpp
 /// M::dist(p, q), M::defect(x), M::make_point(x, p)   at double: see distance() below and any_manifold.hpp

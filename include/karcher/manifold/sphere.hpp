@@ -85,6 +85,7 @@ struct Sphere {
   static constexpr int ambient = N + 1;
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numbers::pi;
+  static constexpr int unit_scale = 1;
 
   /// The first unit vector.
   static Vec<double, N + 1> origin() { return {{1.0}}; }

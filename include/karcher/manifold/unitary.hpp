@@ -17,6 +17,7 @@ struct Unitary {
   static constexpr int ambient = 4;
   static constexpr int dim = 3;
   static constexpr double injectivity_radius = std::numbers::pi;
+  static constexpr int unit_scale = 1;
 
   /// The identity.
   static Vec<double, 4> origin() { return {{1.0}}; }

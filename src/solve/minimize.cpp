@@ -389,6 +389,8 @@ bool Minimizer::State::iterate() {
     return true;
   }
 
+  bool rejected = false;
+  std::string trouble;  // of the last trial point
   for (;;) {
     if (exchange.any(interrupt_requested)) {
       stop(Status::interrupted, fmt::format("Interrupted; the gradient norm is {:.3g}, its threshold {:.3g}.", current.gradient_norm, tolerance()));
@@ -403,6 +405,19 @@ bool Minimizer::State::iterate() {
     const bool newton = step.multiplier == 0;
     if (newton) step = model->step(radius, {.accuracy = 1e-8});
     const bool tiny = step.decrease <= 10 * current.noise;
+    constexpr double shortest = 1e-6;            // steps are measured in parts of the domain and in radians
+    if (tiny && !newton && radius < shortest) {  // is the radius tiny, or what is there to gain?
+      const TrustRegionModel::Step longer = model->step(shortest, {});
+      if (longer.decrease > 10 * current.noise) {
+        if (rejected) {
+          stop(Status::not_converged, fmt::format("No step reduces the energy, however short; the gradient norm is {:.3g}, its threshold {:.3g}.{}",
+                                                  current.gradient_norm, tolerance(), trouble.empty() ? "" : " " + trouble));
+          return true;
+        }
+        radius = longer.norm;
+        continue;
+      }
+    }
 
     Iterate x = moved(current.u, step.s);
     if (x.ok()) correct(x, current.energy, step);
@@ -422,9 +437,9 @@ bool Minimizer::State::iterate() {
                            accepted,
                            seconds_since_start(),
                            x.failure};
-    if (!accepted && tiny && newton) {
+    if (!accepted && tiny) {
       tell(record);
-      return end(fmt::format("The energy cannot be reduced beyond rounding (a Newton step promises {:.2g}); the gradient norm is {:.3g}",
+      return end(fmt::format("The energy cannot be reduced beyond rounding (the best step promises {:.2g}); the gradient norm is {:.3g}",
                              step.decrease, current.gradient_norm));
     }
     if (accepted) {
@@ -447,11 +462,8 @@ bool Minimizer::State::iterate() {
     const double least = std::isfinite(rise) && rise > 0 ? -0.5 * slope / rise : 0.25;
     radius = std::clamp(least, 0.2, 0.5) * step.norm;
     tell(record);
-    if (tiny || !(radius > 1e-14)) {
-      stop(Status::not_converged, fmt::format("No step reduces the energy, however short; the gradient norm is {:.3g}, its threshold {:.3g}.{}",
-                                              current.gradient_norm, tolerance(), x.failure.empty() ? "" : " " + x.failure));
-      return true;
-    }
+    rejected = true;
+    trouble = x.failure;
   }
 }
 

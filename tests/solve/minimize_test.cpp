@@ -266,6 +266,34 @@ TEST(Minimize, GivesTheSameBitsTwice) {
   }
 }
 
+TEST(Minimize, BoundaryDataThatDifferByRoundingDoNotShortenTheFirstStep) {
+  std::vector<char> fixed(31, 0);
+  fixed[0] = 1;
+  SmallProblem p(30, manifold_by_name("R1"), rosenbrock, std::vector<double>(31, 0.9), fixed);
+  Configuration boundary = p.u;
+  for (double& x : boundary.values[0]) x = std::nextafter(x, 1.0);
+  Minimizer minimizer(*p.functional, {});
+  Minimizer::Task task;
+  task.boundary = &boundary;
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  const StepReport report = minimizer.run(p.u, task, observers);
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_EQ(recorder.records.front().radius, 1);
+  EXPECT_LT(report.gradient_norm, 1e-4);
+}
+
+TEST(Minimize, AVeryShortInitialRadiusIsNoConvergence) {
+  for (double radius : {1e-15, 1e-9}) {
+    SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
+    SolverOptions options;
+    options.initial_radius = radius;
+    const StepReport report = minimize(*p.functional, p.u, options, {});
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    EXPECT_LT(report.energy, 3.99) << radius;
+  }
+}
+
 TEST(Minimize, StopsAtTheAllowedNumberOfIterationsAndSaysSo) {
   SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
   SolverOptions options;

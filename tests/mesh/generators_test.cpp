@@ -200,6 +200,19 @@ TEST(Generators, NodesOfHighOrderLieOnTheExactSurface) {
   }
 }
 
+TEST(Generators, GradingMakesTheCellsAtTheRimLongerThanThoseInTheCentre) {
+  for (const char* shape : {"triangle", "quadrilateral"}) {
+    const double n = 40, q = 7;
+    const Mesh plain = make("disc", {{"cells", {n}}}, shape), graded = make("disc", {{"cells", {n}}, {"grading", {q}}}, shape);
+    EXPECT_NEAR(measure(graded, 4), pi, 2e-3);
+    // x -> x (1 + c |x|^2) / (1 + c) with 1 + 3 c = q
+    for (std::size_t i = 0; i < plain.nodes.size(); ++i) {
+      const double r = std::sqrt(norm2(plain.nodes[i]));
+      EXPECT_NEAR(std::sqrt(norm2(graded.nodes[i])), r * (1 + (q - 1) / 3 * r * r) / (1 + (q - 1) / 3), 1e-14);
+    }
+  }
+}
+
 TEST(Generators, DiscsAreFlatPositiveAndHaveNoFoldedCell) {
   for (const char* shape : {"triangle", "quadrilateral"})
     for (double order : {1.0, 2.0, 3.0}) {

@@ -11,6 +11,10 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIRECTORY}/user -DCM
 run(${CMAKE_COMMAND} --build ${WORK_DIRECTORY}/user)
 run(${WORK_DIRECTORY}/user/user)
 run(${stage}/bin/karcher version)
+# Examples come along, and are found from where the program is.
+file(MAKE_DIRECTORY ${WORK_DIRECTORY}/elsewhere)
+run(${stage}/bin/karcher new ${WORK_DIRECTORY}/elsewhere/mine --from cantilever)
+run(${stage}/bin/karcher check ${WORK_DIRECTORY}/elsewhere/mine/problem.toml)
 
 # Nothing installed may point back into the source tree.
 file(GLOB_RECURSE package_files ${stage}/*.cmake)

@@ -23,12 +23,6 @@ directory := $(if $(filter release,$(BUILD)),build,build-$(BUILD))
 configure = cmake --preset $(BUILD) $(if $(wildcard $(directory)/CMakeCache.txt),,$(if $(shell command -v ninja),-G Ninja) -DKARCHER_TESTS=OFF)
 compile = cmake --build $(directory) --parallel $(JOBS)
 
-# The sanitizers stop at the first finding; what MPI and PETSc leave behind themselves is listed in tests/leaks.supp.
-export LSAN_OPTIONS ?= suppressions=$(CURDIR)/tests/leaks.supp:print_suppressions=0
-# Open MPI unloads plugins before the leak check, so what they leave shows as unknown modules that no suppression can match: leaks are not looked for.
-export ASAN_OPTIONS ?= detect_leaks=0
-export UBSAN_OPTIONS ?= print_stacktrace=1
-
 .PHONY: build demo test bench gallery check format
 
 build:

@@ -103,7 +103,7 @@ std::filesystem::path examples_directory() {
   if (const char* given = std::getenv("KARCHER_EXAMPLES")) places.emplace_back(given);
   std::error_code code;
   const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe", code);
-  places.push_back(program.parent_path().parent_path() / "examples");
+  places.push_back(program.parent_path() / "examples");  // a link that CMake makes in the build directory
   places.push_back(program.parent_path().parent_path() / "share" / "karcher" / "examples");
   for (const auto& p : places)
     if (std::filesystem::is_directory(p, code)) return p;
@@ -186,7 +186,7 @@ int make_new(const std::string& name, const std::string& example) {
   if (code) throw Error("The directory " + name + " cannot be made: " + code.message() + ".");
   for (const auto& entry : std::filesystem::directory_iterator(examples_directory() / example)) {
     const std::string file = entry.path().filename().string();
-    if (entry.is_regular_file() && file != "expected.toml" && !file.ends_with(".png")) std::filesystem::copy_file(entry.path(), target / file);
+    if (entry.is_regular_file() && file != "expected.toml" && file != "view") std::filesystem::copy_file(entry.path(), target / file);
   }
   fmt::print("{} is a copy of the example {}; next: karcher run {}\n", (target / "problem.toml").string(), example,
              (target / "problem.toml").string());

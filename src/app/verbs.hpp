@@ -48,7 +48,7 @@ int version();
 /// Copies an example. \param name of the new directory
 int make_new(const std::string& name, const std::string& example);
 
-/// Directory of the examples: KARCHER_EXAMPLES, else beside the program's source, else installed. \throws Error if there is none
+/// Directory of the examples: KARCHER_EXAMPLES, else beside a program that was built, else installed. \throws Error if there is none
 std::filesystem::path examples_directory();
 
 std::string version_text();

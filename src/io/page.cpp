@@ -70,7 +70,7 @@ json iterations(const std::filesystem::path& file) {
 json facts(const Summary& s) {
   json out = json::array();
   const auto add = [&](const std::string& name, const std::string& value) { out.push_back({name, value}); };
-  add("energy", fmt::format("{:.10g}", s.energy));
+  if (std::isfinite(s.energy)) add("energy", fmt::format("{:.10g}", s.energy));
   for (const auto& [name, value] : s.energies)
     if (s.energies.size() > 1) add("energy, " + name, fmt::format("{:.10g}", value));
   for (const auto& [term, parts] : s.parts)
@@ -142,6 +142,7 @@ void write_page(const std::filesystem::path& directory, const PageLimits& limits
     const PageShape cut = page_shape(store, states, limits.triangles);
     if (!cut.note.empty()) notes.push_back(cut.note);
     if (!cut.vertices.empty()) shape = shape_header(store, states, cut, limits.glyphs, arrays);
+    if (!curve_in.empty() && !shape.is_null()) shape["start"]["field"] = "";  // where the curve is tells its values
     if (curve_in == "S2" && !shape.is_null()) shape["sphere"] = true;
   }
   if (store.cut_off) notes.push_back("The last stored state was cut off when the program ended, so it is missing here.");

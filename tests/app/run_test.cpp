@@ -442,16 +442,22 @@ TEST(Catalogue, ListsAndExplains) {
   EXPECT_EQ(shop.karcher("version").out.find("karcher "), 0u);
 }
 
-TEST(New, CopiesAnExampleAndOverwritesNothing) {
+TEST(New, CopiesAnExampleWithItsFilesAndOverwritesNothing) {
   const Workshop shop;
-  Outcome o = shop.karcher("new mine --from cantilever");
+  Outcome o = shop.karcher("new mine --from curve-shortening");
   ASSERT_EQ(o.code, 0) << o.err;
-  EXPECT_TRUE(shop.files().contains("mine/problem.toml"));
+  EXPECT_EQ(shop.karcher("check mine/problem.toml").code, 0) << "its mesh came along";
+  EXPECT_TRUE(shop.files().contains("mine/README.md"));
   EXPECT_FALSE(shop.files().contains("mine/expected.toml"));
-  EXPECT_EQ(shop.karcher("new mine --from cantilever").code, 2);
+  shop.write("mine/problem.toml", "mine");
+  o = shop.karcher("new mine --from cantilever");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("exists already"), std::string::npos) << o.err;
+  EXPECT_EQ(content(shop.directory() / "mine/problem.toml"), "mine");
   o = shop.karcher("new other --from cantilevr");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("Did you mean \"cantilever\"?"), std::string::npos) << o.err;
+  EXPECT_FALSE(std::filesystem::exists(shop.directory() / "other"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "io/page_data.hpp"
@@ -258,6 +259,60 @@ TEST(PageShape, OfASolidTheBoundaryIsShownWithItsCreasesStrong) {
   }
 }
 
+TEST(PageShape, EveryFaceBetweenTwoCellsOfASolidIsThereOnceWithTheCellsOnBothSides) {
+  const TemporaryDirectory directory;
+  for (const char* kind : {"tetrahedron", "hexahedron"})
+    for (const int order : {1, 2}) {
+      const auto mesh = generated("box", {{"size", {2, 1, 1}}, {"cells", {4, 2, 2}}}, {{"shape", kind}});
+      const Store store = stored(mesh, order, {identity}, directory.path());
+      const PageShape shape = page_shape(store, {0}, 200000);
+      const bool tetrahedra = std::string(kind) == "tetrahedron";
+      const int faces = tetrahedra ? 4 : 6;
+      std::set<std::uint32_t> outer(shape.triangle_facets.begin(), shape.triangle_facets.end()), inner(shape.inner_facets.begin(), shape.inner_facets.end());
+      EXPECT_EQ(outer.size() + 2 * inner.size(), mesh->cells.size() * static_cast<std::size_t>(faces)) << kind << order;
+      EXPECT_EQ(shape.facets.size(), outer.size() + 2 * inner.size());
+      ASSERT_EQ(shape.solid_cells.size(), shape.facets.size());
+      std::map<std::uint32_t, int> count;
+      for (const std::uint32_t cell : shape.solid_cells) ++count[cell];
+      EXPECT_EQ(count.size(), mesh->cells.size());
+      for (const auto& [cell, n] : count) EXPECT_EQ(n, faces) << kind << ", cell " << cell;
+
+      // The faces of every cell enclose its volume: by the divergence theorem with x/3, the cell's centre as origin.
+      std::vector<Vec3<double>> x = places(shape, store);
+      std::vector<Vec3<double>> centre(mesh->cells.size(), Vec3<double>{});
+      std::vector<double> volume(mesh->cells.size(), 0.0);
+      for (std::size_t c = 0; c < mesh->cells.size(); ++c) {
+        const int corners = vertex_count(mesh->cells[c].kind);
+        for (int k = 0; k < corners; ++k) centre[c] += (1.0 / corners) * mesh->nodes[static_cast<std::size_t>(mesh->cells[c].nodes[static_cast<std::size_t>(k)])];
+      }
+      const auto add = [&](const std::vector<std::uint32_t>& triangles, std::size_t t, std::uint32_t facet) {
+        const std::size_t c = shape.solid_cells[facet];
+        const Vec3<double> p = x[triangles[3 * t]] - centre[c], q = x[triangles[3 * t + 1]] - centre[c], r = x[triangles[3 * t + 2]] - centre[c];
+        volume[c] += std::abs(dot(p, cross(q, r))) / 6;
+      };
+      for (std::size_t t = 0; t < shape.triangle_facets.size(); ++t) add(shape.triangles, t, shape.triangle_facets[t]);
+      for (std::size_t t = 0; t < shape.inner_facets.size(); ++t) {
+        add(shape.inner_triangles, t, shape.inner_facets[t]);
+        add(shape.inner_triangles, t, shape.inner_facets[t] + 1);
+      }
+      for (const double v : volume) EXPECT_NEAR(v, 2.0 / static_cast<double>(mesh->cells.size()), tetrahedra ? 1e-2 : 1e-6);
+      EXPECT_NEAR(std::accumulate(volume.begin(), volume.end(), 0.0), 2, 1e-6) << kind << order;
+      EXPECT_TRUE(shape.note.empty()) << shape.note;
+    }
+}
+
+TEST(PageShape, TheInsideOfALargeSolidIsLeftOutAndSaidSo) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("box", {{"size", {1, 1, 1}}, {"cells", {4, 4, 4}}}, {{"shape", "hexahedron"}});
+  const Store store = stored(mesh, 1, {identity}, directory.path());
+  const PageShape shape = page_shape(store, {0}, 6 * 16 * 2 + 100);  // 6 x 16 outer and 3 x 48 inner faces of two triangles
+  EXPECT_EQ(shape.triangle_facets.size(), 6U * 16 * 2);
+  EXPECT_TRUE(shape.inner_triangles.empty());
+  EXPECT_TRUE(shape.solid_cells.empty());
+  EXPECT_NE(shape.note.find("inside of the solid is left out"), std::string::npos) << shape.note;
+  EXPECT_EQ(page_shape(store, {0}, 6 * 16 * 2 + 288).inner_facets.size(), 288U);
+}
+
 TEST(PageShape, CurvesAreCutWhereTheyBend) {
   const TemporaryDirectory directory;
   const auto arc = [](const Vec3<double>& x) { return std::vector<double>{std::sin(x[0]), 0, 1 - std::cos(x[0])}; };
@@ -286,9 +341,15 @@ TEST(PageShape, AFilmTakesThePlaceOfTheFacesItLiesOn) {
   const Store store = read_store(directory / "report.data");
   ASSERT_EQ(store.parts.size(), 2U);
   const PageShape shape = page_shape(store, {0}, 200000);
-  EXPECT_EQ(shape.facets.size(), 2U * (8 + 8 + 4));
+  EXPECT_EQ(shape.triangle_facets.size(), 2U * 2 * (8 + 8 + 4));
   int film = 0;
-  for (const PageFacet& f : shape.facets) film += f.part == 1 && f.below_part == 0;
+  for (std::size_t k = 0; k < shape.facets.size(); ++k) {
+    const PageFacet& f = shape.facets[k];
+    if (f.part == 0) continue;
+    ++film;
+    EXPECT_EQ(f.below_part, 0);
+    EXPECT_EQ(shape.solid_cells.at(k), static_cast<std::uint32_t>(f.below_cell));  // it is cut away with the cell it lies on
+  }
   EXPECT_EQ(film, 8);
 }
 

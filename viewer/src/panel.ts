@@ -59,7 +59,7 @@ export function buildPanel(container: HTMLElement, model: ShapeModel, view: View
     const most = Math.max(...shape.glyphs.map((g) => model.data.header.arrays[g.reference].count));
     if (most > 20) named(glyphs.add(view, 'glyphDensity', 10, Math.min(most, 4000), 1).name('number'), 'glyphDensity');
   }
-  if (shape.displacement.length) {
+  if (shape.displacement.length && !shape.sphere) {
     const deformation = gui.addFolder('Deformation');
     const most = largestScale(model);
     named(deformation.add(view, 'scale', 0, most, most / 200).name('scale'), 'scale');

@@ -59,6 +59,7 @@ export class Stage {
     this.glyph = new Mesh(new InstancedBufferGeometry(), glyphMaterial());
     this.sphere = new Mesh(new SphereGeometry(model.shape.sphere ? 0.994 : 0, 96, 48), surfaceMaterial());
     (this.sphere.material.uniforms.plain.value as Vector3).set(0.78, 0.8, 0.83);
+    (this.tube.material.uniforms.plain.value as Vector3).set(0.06, 0.2, 0.5);
     this.trail = new Mesh(new InstancedBufferGeometry(), lineMaterial());
     this.faces = model.faces;
     // On a flat shape the glyphs are drawn over it, whole.

@@ -2,12 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { look, open, screenshots, showStep, start } from './browser.mjs';
+import { look, open, screenshots, set, showStep, start } from './browser.mjs';
 import { difference, drawn, part, readPng } from './picture.mjs';
 
 const program = process.env.KARCHER || fileURLToPath(new URL('../../build/karcher', import.meta.url));
@@ -28,9 +28,9 @@ function karcher(...words) {
 }
 
 /** Solves a problem; the page is <name>/report.html. */
-function solve(name, problem, status = 0) {
+function solve(name, problem, status = 0, words = []) {
   writeFileSync(join(folder, `${name}.toml`), problem);
-  const ran = karcher('run', `${name}.toml`, '--output', name, '--quiet');
+  const ran = karcher('run', `${name}.toml`, '--output', name, '--quiet', ...words);
   assert.equal(ran.status, status, ran.text);
   return join(folder, name, 'report.html');
 }
@@ -191,4 +191,167 @@ test('solids show their boundary, curves on the sphere the sphere', async () => 
     const round = part(await look(page, '#stage'), (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 25 && r > 90 && r < 240);
     assert.ok(round > 0.1, `${round} of the picture is the sphere`);
   });
+});
+
+test('a solid that is cut open shows its cells and their values, and what is beyond the cut is gone', async () => {
+  const file = solve('solid', map('R1', '["x"]', 'generate = "box"\nlower = [-1, -1, -1]\nsize = [2, 2, 2]\ncells = [6, 6, 6]\nshape = "hexahedron"'));
+  const purple = (r, g, b) => r < 110 && g < 50 && b > r;
+  await inside(
+    file,
+    async (page) => {
+      // u = x, seen along the x axis from its positive end: yellow, and behind it, at the cut, the colour of the middle, not the purple of the far wall.
+      const whole = await look(page, '#stage');
+      assert.ok(part(whole, (r, g, b) => r > 150 && g > 150 && b < 100) > 0.2, 'yellow');
+      await set(page, 'clip', 'across x');
+      const cut = await look(page, '#stage');
+      await page.screenshot({ path: join(screenshots, 'program-solid-cut.png') });
+      const middle = part(cut, (r, g, b) => g > 80 && b > 80 && r < 80);
+      assert.ok(middle > 0.2, `${middle} of the picture has the colour of the middle`);
+      assert.ok(part(cut, purple) < 0.01);
+      await set(page, 'clipAt', 0.02);
+      assert.ok(drawn(await look(page, '#stage'), 12) < 0.02, 'all is cut away');
+      await set(page, 'clip', 'none');
+      assert.equal(difference(whole, await look(page, '#stage')), 0);
+      await set(page, 'clip', 'across z');
+      await set(page, 'clipAt', 0.5);
+      assert.ok(drawn(await look(page, '#stage'), 12) < 0.7 * drawn(whole, 12), 'the upper half is gone');
+    },
+    { hash: '#view=1,0,0&edges=0' },
+  );
+});
+
+test('maps into the plane and the line have components as colours', async () => {
+  const plane = solve('plane', map('R2', '["x*x - y*y", "2*x*y"]'));
+  await inside(plane, async (page) => {
+    const first = await look(page, '#stage');
+    await set(page, 'field', 'u, component 2');
+    assert.ok(difference(first, await look(page, '#stage')) > 0.1);
+  });
+});
+
+test('a curve on the sphere leaves a trail of its earlier states', async () => {
+  const arc = (at) => `["sin(${at})*cos(6.2831853*x)", "sin(${at})*sin(6.2831853*x)", "cos(${at})"]`;
+  const file = solve('trail', `
+title = "Circles"
+[mesh]
+generate = "interval"
+cells = [24]
+[fields.u]
+manifold = "S2"
+order = 2
+initial = ${arc('1.4')}
+[[energies]]
+type = "l2-distance"
+field = "u"
+weight = 1
+target = ${arc('1.4-0.8*t')}
+[continuation]
+steps = 6
+`);
+  await inside(file, async (page) => {
+    await page.screenshot({ path: join(screenshots, 'program-trail.png') });
+    const trail = await look(page, '#stage');
+    await set(page, 'trail', false);
+    const without = await look(page, '#stage');
+    assert.ok(difference(trail, without) > 0.002);
+    await showStep(page, 0);
+    await set(page, 'trail', true);
+    const start = await look(page, '#stage');
+    await set(page, 'trail', false);
+    assert.equal(difference(start, await look(page, '#stage')), 0, 'nothing came before the start');
+  });
+});
+
+test('on two ranks the page tells so, and shows the same', async () => {
+  const one = solve('one', strip()), two = solve('two', strip(), 0, ['-n', '2']);
+  const pictures = [];
+  for (const [file, ranks] of [[one, '1'], [two, '2']])
+    await inside(file, async (page) => {
+      pictures.push(await look(page, '#stage'));
+      const facts = await page.locator('.facts div').allTextContents();
+      assert.ok(facts.includes(`ranks${ranks}`), `${facts}`);
+      assert.match(await page.locator('#result').textContent(), /local minimum/);
+    });
+  assert.ok(difference(...pictures) < 0.001);
+});
+
+test('a run whose second load step fails has a page that says what failed', async () => {
+  // A single geodesic from the pole: half way round, the mean of its ends is not unique.
+  const file = solve('fails', `
+[mesh]
+generate = "interval"
+cells = [1]
+[fields.u]
+manifold = "S2"
+interpolation = "geodesic"
+[[energies]]
+type = "harmonic"
+field = "u"
+[[dirichlet]]
+field = "u"
+on = "left"
+value = [0, 0, 1]
+[[dirichlet]]
+field = "u"
+on = "right"
+value = ["sin(pi*t)", 0, "cos(pi*t)"]
+[continuation]
+steps = 2
+`, 1);
+  await inside(file, async (page) => {
+    await page.screenshot({ path: join(screenshots, 'program-failed.png'), fullPage: true });
+    assert.equal(await page.locator('#status').textContent(), 'failed');
+    const result = await page.locator('#result').textContent();
+    assert.match(result, /not defined/);
+    assert.equal(await page.locator('tr[data-step]').count(), 2);
+    assert.match(await page.locator('tr[data-step="2"]').textContent(), /failed/);
+  });
+});
+
+test('a run that was interrupted shows the finished load steps', async () => {
+  writeFileSync(join(folder, 'long.toml'), strip().replace('steps = 3', 'steps = 400'));
+  const running = spawn(program, ['run', 'long.toml', '--output', 'long', '--quiet'], { cwd: folder, stdio: 'ignore' });
+  const ended = new Promise((done) => running.on('exit', done));
+  const rows = () => {
+    try {
+      return JSON.parse(readFileSync(join(folder, 'long', 'summary.json'))).load_steps.length;
+    } catch {
+      return 0;
+    }
+  };
+  for (let k = 0; k < 1200 && rows() < 2; ++k) await new Promise((wake) => setTimeout(wake, 50));
+  running.kill('SIGINT');
+  assert.equal(await ended, 130);
+  await inside(join(folder, 'long', 'report.html'), async (page) => {
+    await page.screenshot({ path: join(screenshots, 'program-interrupted.png'), fullPage: true });
+    assert.equal(await page.locator('#status').textContent(), 'interrupted');
+    assert.match(await page.locator('#result').textContent(), /interrupt/i);
+    assert.ok((await page.locator('tr[data-step]').count()) >= 2);
+    assert.ok(Number(await page.locator('#step').getAttribute('max')) >= 2);
+  });
+});
+
+test('the page of the Klein bottle: ready in 3 s, light and dark; writing it takes at most a twentieth of the run', async () => {
+  const problem = fileURLToPath(new URL('../../examples/klein-bottle/problem.toml', import.meta.url));
+  const ran = karcher('run', problem, '--output', 'klein', '--quiet');
+  assert.equal(ran.status, 0, ran.text);
+  const total = JSON.parse(readFileSync(join(folder, 'klein', 'summary.json'))).seconds.total;
+  let written = Infinity;
+  for (let k = 0; k < 3; ++k) {
+    const begin = performance.now();
+    assert.equal(karcher('view', 'klein').status, 0);
+    written = Math.min(written, (performance.now() - begin) / 1000);
+  }
+  console.log(`Klein bottle: run ${total.toFixed(2)} s, page ${written.toFixed(3)} s (${((100 * written) / total).toFixed(1)} %)`);
+  assert.ok(written <= 0.05 * total, `${written} s of ${total} s`);
+  const file = join(folder, 'klein', 'report.html');
+  assert.ok(statSync(file).size <= 4 << 20);
+  let ready = Infinity;
+  for (const dark of [false, true])
+    await inside(file, async (page) => {
+      ready = Math.min(ready, page.readyAfter);
+      await page.screenshot({ path: join(screenshots, `klein-bottle-${dark ? 'dark' : 'light'}.png`), fullPage: true });
+      assert.match(await page.locator('#result').textContent(), /local minimum/);
+    }, { dark });
+  assert.ok(ready <= 3, `ready after ${ready} s`);
 });

@@ -5,28 +5,18 @@
 #include <fmt/format.h>
 
 #include "karcher/assembly/density_term.hpp"
+#include "karcher/assembly/with_rule.hpp"
 #include "karcher/energy/dead_load.hpp"
 #include "karcher/energy/harmonic.hpp"
 #include "karcher/energy/l2_distance.hpp"
 #include "karcher/error.hpp"
-#include "karcher/interpolation/rules.hpp"
 
 namespace karcher {
 
-/// Calls make<Interpolation>() with the rule of the field.
+/// with_rule for the first field of a term.
 template <class M, int D, class Make>
 std::unique_ptr<Term> with_rule(const TermInput& input, Make make) {
-  const Field& field = input.all_fields[static_cast<std::size_t>(input.fields.front())];
-  if constexpr (is_linear<M>) {
-    return make.template operator()<LinearInterpolation<M, D, NativeScalar>>();
-  } else {
-    if (field.rule == Rule::geodesic) return make.template operator()<GeodesicInterpolation<M, D, NativeScalar>>();
-    if constexpr (HasProjection<M>)
-      return make.template operator()<ProjectionInterpolation<M, D, NativeScalar>>();
-    else
-      throw InputError(
-          fmt::format("Field \"{}\": {} has no projection from its ambient space; use interpolation = \"geodesic\".", field.name, M::name));
-  }
+  return with_rule<M, D>(input.all_fields[static_cast<std::size_t>(input.fields.front())], make);
 }
 
 /// Calls make<D>() with the dimension of the region's entities, if it is one of those listed.

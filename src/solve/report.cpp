@@ -1,5 +1,9 @@
 #include "karcher/solve/report.hpp"
 
+#include <fmt/format.h>
+
+#include <ostream>
+
 namespace karcher {
 
 std::string_view name(Status s) {
@@ -30,6 +34,11 @@ PhaseSeconds& PhaseSeconds::operator+=(const PhaseSeconds& other) {
   factorisation += other.factorisation;
   solve += other.solve;
   return *this;
+}
+
+std::ostream& operator<<(std::ostream& out, const StepReport& r) {
+  return out << fmt::format("energy {:.13g}, {} after {} iteration{}: {}", r.energy, name(r.status), r.iterations, r.iterations == 1 ? "" : "s",
+                            r.reason);
 }
 
 }  // namespace karcher

@@ -40,8 +40,8 @@ const GeneratorInfo& generator(const std::string& name);
 
 struct GeneratorOptions {
   std::string name;
-  std::map<std::string, std::vector<double>> numbers;  ///< arguments that are numbers; missing ones have their defaults
-  std::map<std::string, std::string> words;            ///< arguments that are choices
+  std::map<std::string, std::vector<double>> numbers{};  ///< arguments that are numbers; missing ones have their defaults
+  std::map<std::string, std::string> words{};            ///< arguments that are choices
 };
 
 /// The mesh, with region "all", the regions of its boundary pieces, and "boundary" if it has a boundary. Nodes lie on the exact surface, and so do

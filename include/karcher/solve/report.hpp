@@ -2,6 +2,7 @@
 /// \file
 /// What a solver tells: one record per iteration, one report per load step. Observers receive them while the solver runs.
 
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <string_view>
@@ -50,6 +51,9 @@ struct StepReport {
   PhaseSeconds phases;
   double seconds = 0;
 };
+
+/// "energy 6.963591204935, converged after 3 iterations: <reason>"
+std::ostream& operator<<(std::ostream& out, const StepReport& report);
 
 /// Tells tables, files and pages what happens; the solver knows no file. Called on all ranks, with the same arguments.
 class Observer {

@@ -24,6 +24,9 @@ USES = {
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 
+# The library's front door, for programs: it may use every room but app, and no file of the library may use it.
+FRONT_DOOR = Path("include/karcher/karcher.hpp")
+
 # Foreign headers that are the business of few (and of tests, which may use all). A pattern is matched against the path of the included header, a place against the path of the including file.
 FOREIGN = [
     ("PETSc, MPI and MUMPS", r"(petsc.*|mpi|dmumps_c)\.h$", r"(include/karcher|src)/(solve|field)/|(include/karcher|src)/mesh/partition"),
@@ -92,6 +95,9 @@ def wrong_includes(root):
             if ".." in Path(name).parts:
                 sentences.append(f"{place}: includes {name}; say it from include/ or src/ on.")
                 continue
+            if in_library and target == FRONT_DOOR:
+                sentences.append(f"{place}: the front door is for programs; include the headers that are needed.")
+                continue
             used = room_of(target)
             if not in_library or used is None:
                 if path.parts[0] == "tutorials" and target.parts[0] == "src":
@@ -100,7 +106,7 @@ def wrong_includes(root):
             if path.parts[0] == "include" and target.parts[0] == "src":
                 sentences.append(f"{place}: a public header includes {name}, which is not installed.")
             elif room is None:
-                if path != Path("src/main.cpp"):
+                if path != Path("src/main.cpp") and (path != FRONT_DOOR or used == "testing"):
                     sentences.append(f"{place}: a header that every room may use includes {name} of the room {used}.")
             elif used not in reachable(room):
                 sentences.append(f"{place}: {room} uses {used} ({name}); it may use {', '.join(sorted(reachable(room) - {room})) or 'no other room'}.")
@@ -118,6 +124,8 @@ def self_test():
         "include/karcher/mesh/mesh.hpp": '#include "karcher/math/tensor.hpp"\n',
         "include/karcher/field/field.hpp": '#include "karcher/mesh/mesh.hpp"\n#include "karcher/manifold/sphere.hpp"\n',
         "include/karcher/testing/laws.hpp": '#include <gtest/gtest.h>\n#include "karcher/manifold/sphere.hpp"\n',
+        "include/karcher/karcher.hpp": '#include "karcher/field/field.hpp"\n',
+        "tutorials/hello.cpp": '#include "karcher/karcher.hpp"\n',
         "src/mesh/partition.cpp": "#include <petscmat.h>\n",
         "src/solve/solve.cpp": '#include <petscksp.h>\n#include <mpi.h>\n#include "linear.hpp"\n#include "solve/linear.hpp"\n#include "karcher/field/field.hpp"\n',
         "src/solve/linear.hpp": "",
@@ -146,6 +154,7 @@ def self_test():
         ("src/energy/bad.cpp", "#include <adolc/adolc.h>", "does not know the oracle"),
         ("src/energy/bad.cpp", '#include "karcher/math/absent.hpp"', "does not exist"),
         ("include/karcher/bad.hpp", '#include "karcher/math/tensor.hpp"', "every room may use"),
+        ("src/field/bad.cpp", '#include "karcher/karcher.hpp"', "front door"),
         ("src/kitchen/bad.cpp", "", "kitchen/ is no room"),
     ]
     failures = []

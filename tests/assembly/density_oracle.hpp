@@ -431,13 +431,36 @@ std::vector<X> mean(const std::vector<std::vector<X>>& p, const std::vector<X>& 
   return G::exp(q, G::tangent(q, x));
 }
 
-template <class G, class X>
-std::vector<X> interpolated(Rule rule, const std::vector<std::vector<X>>& p, const std::vector<X>& l) {
+/// \param p  nodes; \param l, dl  weights with their derivatives, which are constants of the element
+template <class G, int D, class S>
+std::vector<Slope<S, D>> interpolated(Rule rule, const std::vector<std::vector<S>>& p, const std::vector<double>& l,
+                                      const std::vector<std::array<double, D>>& dl) {
+  using X = Slope<S, D>;
   if constexpr (requires(std::vector<double> q) { G::tangent(q, q); })
-    if (rule == Rule::geodesic) return G::value(mean<G>(p, l));
+    if (rule == Rule::geodesic) {
+      std::vector<std::vector<X>> nodes;
+      std::vector<X> weights;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        weights.emplace_back(l[i]);
+        for (std::size_t a = 0; a < D; ++a) weights.back().d[a] = S(dl[i][a]);
+        nodes.emplace_back();
+        for (const S& x : p[i]) {
+          nodes.back().emplace_back();
+          nodes.back().back().v = x;
+        }
+      }
+      return G::value(mean<G>(nodes, weights));
+    }
   if constexpr (requires(std::vector<X> x) { G::projected(x); }) {
-    std::vector<X> sum = times(l[0], G::value(p[0]));
-    for (std::size_t i = 1; i < p.size(); ++i) sum = plus(sum, l[i], G::value(p[i]));
+    std::vector<X> sum;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const std::vector<S> value = G::value(p[i]);
+      sum.resize(value.size());
+      for (std::size_t c = 0; c < value.size(); ++c) {
+        sum[c].v += value[c] * l[i];
+        for (std::size_t a = 0; a < D; ++a) sum[c].d[a] += value[c] * dl[i][a];
+      }
+    }
     return G::projected(sum);
   }
   return {};
@@ -498,32 +521,21 @@ Element<D> element(const Mesh& mesh, const Cell& cell, int order, int degree) {
 /// \param density  S(value, derivatives[direction], place)
 template <class G, int D, class S, class Density>
 S energy(const Element<D>& e, const S* v, const Density& density) {
-  using X = Slope<S, D>;
-  std::vector<std::vector<X>> nodes;
+  std::vector<std::vector<S>> nodes;
   for (std::size_t i = 0; i < e.nodes.size(); ++i) {
-    const std::size_t n = e.nodes[i].size();
     std::vector<S> a;
-    for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t c = 0; c < e.nodes[i].size(); ++c) {
       a.push_back(v[i * e.dim] * e.frames[i][c * e.dim]);
       for (std::size_t k = 1; k < e.dim; ++k) a[c] += v[i * e.dim + k] * e.frames[i][c * e.dim + k];
     }
-    nodes.emplace_back();
-    for (const S& x : G::exp(e.nodes[i], a)) {
-      nodes.back().emplace_back();
-      nodes.back().back().v = x;
-    }
+    nodes.push_back(G::exp(e.nodes[i], a));
   }
   S sum = S(0.0);
   for (std::size_t q = 0; q < e.weight.size(); ++q) {
-    std::vector<X> l;
-    for (std::size_t i = 0; i < e.nodes.size(); ++i) {
-      l.emplace_back(e.l[q][i]);
-      for (std::size_t a = 0; a < D; ++a) l.back().d[a] = S(e.dl[q][i][a]);
-    }
-    const std::vector<X> u = interpolated<G>(e.rule, nodes, l);
+    const auto u = interpolated<G, D>(e.rule, nodes, e.l[q], e.dl[q]);
     std::vector<S> value;
     std::array<std::vector<S>, D> d;
-    for (const X& x : u) {
+    for (const auto& x : u) {
       value.push_back(x.v);
       for (std::size_t a = 0; a < D; ++a) d[a].push_back(x.d[a]);
     }

@@ -19,7 +19,11 @@ class SphereProjection {
   using Chart = ProjectionChart;
   static constexpr int k = M::dim, N = M::ambient, L = local_dim<M, D>;
 
-  MaskOf<T> begin_cell(const Point<M, T>*, int) { return T(0.0) < T(1.0); }
+  MaskOf<T> begin_cell(const Point<M, T>* nodes, int count) {
+    node_frames_.resize(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) node_frames_[static_cast<std::size_t>(i)] = M::frame(nodes[i]);
+    return T(0.0) < T(1.0);
+  }
 
   /// Lanes where |X| is so small that the projection is not defined are false.
   MaskOf<T> evaluate(const Point<M, T>* nodes, const Weights<D, T>& weights) {
@@ -52,12 +56,12 @@ class SphereProjection {
   }
 
   /// w_i = l_i B_i / |X|, k_{a,i} = ((l_{i,a} - l_i s_a) B_i - l_i k_a b_i^T) / |X| with B_i = E^T E_i, b_i = E_i^T q, s_a = q . X_a / |X|.
-  void linearize(const Point<M, T>* nodes, std::vector<Mat<T, L, k>>& maps) {
+  void linearize(const Point<M, T>*, std::vector<Mat<T, L, k>>& maps) {
     b_.resize(static_cast<std::size_t>(weights_.count));
     B_.resize(static_cast<std::size_t>(weights_.count));
     for (int i = 0; i < weights_.count; ++i) {
       const auto n = static_cast<std::size_t>(i);
-      const Mat<T, N, k> node_frame = M::frame(nodes[i]);
+      const Mat<T, N, k>& node_frame = node_frames_[n];
       B_[n] = transpose_times(frame_, node_frame);
       b_[n] = transpose_times(node_frame, jet_.value);
       const T l = T(weights_.l[i]) * r_;
@@ -124,6 +128,7 @@ class SphereProjection {
   T r_{};                         // 1 / |X|
   std::array<T, D> s_{};          // q . X_a / |X|
   std::array<Vec<T, k>, D> y_{};  // local coordinates k_a of the derivatives
+  std::vector<Mat<T, N, k>> node_frames_;
   std::vector<Mat<T, k, k>> B_;
   std::vector<Vec<T, k>> b_, p_;
   std::array<std::vector<Vec<T, k>>, D> q_;

@@ -67,7 +67,6 @@ double Expression::operator()(const Vec3<double>& x, double t) const {
 bool Expression::is_constant() const { return state_->constant.has_value(); }
 bool Expression::uses_t() const { return state_->uses_t; }
 bool Expression::uses_point() const { return state_->uses_point; }
-const std::string& Expression::text() const { return state_->text; }
 
 Dual<double, 3> Expression::derivative(const Vec3<double>& x, double t) const {
   State& s = *state_;

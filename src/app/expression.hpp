@@ -30,8 +30,6 @@ class Expression {
   double constant() const { return (*this)({}, 0); }
   bool uses_t() const;
   bool uses_point() const;
-  /// The expression as it was written (a number in full precision).
-  const std::string& text() const;
 
   /// Value and derivatives in x, y, z by automatic differentiation. \throws InputError as above
   Dual<double, 3> derivative(const Vec3<double>& x, double t) const;

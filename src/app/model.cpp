@@ -171,8 +171,7 @@ OutputModel output_model(const Problem& problem, const Model& model) {
   OutputModel o;
   o.fields = model.fields();
   o.deformation = problem.deformation();
-  o.terms = model.term_names;
-  for (const auto& term : model.functional->terms()) o.term_parts.push_back(term->part_names());
+  set_terms(o, *model.functional);
   o.reference_position = reference_position(problem);
   o.reference_order = problem.reference.order;
   return o;

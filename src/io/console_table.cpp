@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,8 +25,6 @@ std::string share(double part, double total) { return total > 0 ? fmt::format("{
 std::string counted(long n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
 
 }  // namespace
-
-ConsoleTable::ConsoleTable(std::FILE* out, int steps) : ConsoleTable(out, steps, ::isatty(::fileno(out)) != 0) {}
 
 ConsoleTable::ConsoleTable(std::FILE* out, int steps, bool terminal) : out_(out), steps_(steps), terminal_(terminal) {}
 

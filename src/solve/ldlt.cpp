@@ -192,7 +192,4 @@ void Ldlt::solve(std::span<const double> b, std::span<double> x) {
   exchange_.update_ghosts(x);
 }
 
-double Ldlt::flops() const { return mumps_->id.rinfog[0]; }
-double Ldlt::factor_mb() const { return mumps_->info(22); }
-
 }  // namespace karcher

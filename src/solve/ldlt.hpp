@@ -31,9 +31,6 @@ class Ldlt {
   /// x = (P L D L^T P^T)^-1 b on owned dofs; ghosts of x are filled, fixed entries are 0. b and x may be the same. Collective.
   void solve(std::span<const double> b, std::span<double> x);
 
-  double flops() const;      ///< of one factorisation, estimated
-  double factor_mb() const;  ///< memory of all ranks together after the last factorisation
-
  private:
   struct Mumps;
   const Exchange& exchange_;

@@ -15,7 +15,6 @@ namespace karcher {
 class ConsoleTable : public Observer {
  public:
   /// \param steps number of load steps, 0 if not known beforehand. Make one on the rank that talks only.
-  explicit ConsoleTable(std::FILE* out = stdout, int steps = 1);
   ConsoleTable(std::FILE* out, int steps, bool terminal);
   ~ConsoleTable() override;
   ConsoleTable(const ConsoleTable&) = delete;

@@ -9,7 +9,6 @@
 #include <petscsys.h>
 
 #include <string>
-#include <utility>
 
 namespace karcher {
 
@@ -35,25 +34,5 @@ int world_size();
 
 /// \throws Error with PETSc's own words if code is not 0.
 void check_petsc(PetscErrorCode code);
-
-/// Owner of a PETSc object: `PetscOwned<Mat, MatDestroy> a; check_petsc(MatCreate(comm, a.out()));`
-template <class Object, PetscErrorCode (*destroy)(Object*)>
-class PetscOwned {
- public:
-  PetscOwned() = default;
-  PetscOwned(PetscOwned&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
-  PetscOwned& operator=(PetscOwned&& other) noexcept {
-    std::swap(object_, other.object_);
-    return *this;
-  }
-  ~PetscOwned() {
-    if (object_ && PetscInitializeCalled && !PetscFinalizeCalled) destroy(&object_);
-  }
-  operator Object() const { return object_; }
-  Object* out() { return &object_; }
-
- private:
-  Object object_ = nullptr;
-};
 
 }  // namespace karcher

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -141,7 +142,8 @@ void write_page(const std::filesystem::path& directory, const PageLimits& limits
     if (states.size() < store.states.size()) notes.push_back(fmt::format("The page shows {} of {} states.", states.size(), store.states.size()));
     const PageShape cut = page_shape(store, states, limits.triangles);
     if (!cut.note.empty()) notes.push_back(cut.note);
-    if (!cut.vertices.empty()) shape = shape_header(store, states, cut, limits.glyphs, arrays);
+    if (!cut.vertices.empty())
+      shape = shape_header(store, states, cut, std::max(limits.glyphs, limits.glyph_values / static_cast<int>(states.size())), arrays);
     if (!curve_in.empty() && !shape.is_null()) shape["start"]["field"] = "";  // where the curve is tells its values
     if (curve_in == "S2" && !shape.is_null()) shape["sphere"] = true;
   }

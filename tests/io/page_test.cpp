@@ -268,7 +268,8 @@ TEST(PageShape, EveryFaceBetweenTwoCellsOfASolidIsThereOnceWithTheCellsOnBothSid
       const PageShape shape = page_shape(store, {0}, 200000);
       const bool tetrahedra = std::string(kind) == "tetrahedron";
       const int faces = tetrahedra ? 4 : 6;
-      std::set<std::uint32_t> outer(shape.triangle_facets.begin(), shape.triangle_facets.end()), inner(shape.inner_facets.begin(), shape.inner_facets.end());
+      std::set<std::uint32_t> outer(shape.triangle_facets.begin(), shape.triangle_facets.end()),
+          inner(shape.inner_facets.begin(), shape.inner_facets.end());
       EXPECT_EQ(outer.size() + 2 * inner.size(), mesh->cells.size() * static_cast<std::size_t>(faces)) << kind << order;
       EXPECT_EQ(shape.facets.size(), outer.size() + 2 * inner.size());
       ASSERT_EQ(shape.solid_cells.size(), shape.facets.size());
@@ -283,7 +284,8 @@ TEST(PageShape, EveryFaceBetweenTwoCellsOfASolidIsThereOnceWithTheCellsOnBothSid
       std::vector<double> volume(mesh->cells.size(), 0.0);
       for (std::size_t c = 0; c < mesh->cells.size(); ++c) {
         const int corners = vertex_count(mesh->cells[c].kind);
-        for (int k = 0; k < corners; ++k) centre[c] += (1.0 / corners) * mesh->nodes[static_cast<std::size_t>(mesh->cells[c].nodes[static_cast<std::size_t>(k)])];
+        for (int k = 0; k < corners; ++k)
+          centre[c] += (1.0 / corners) * mesh->nodes[static_cast<std::size_t>(mesh->cells[c].nodes[static_cast<std::size_t>(k)])];
       }
       const auto add = [&](const std::vector<std::uint32_t>& triangles, std::size_t t, std::uint32_t facet) {
         const std::size_t c = shape.solid_cells[facet];

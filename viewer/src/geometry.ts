@@ -349,7 +349,7 @@ export function tubes(x: Float32Array, vertices: Uint32Array, starts: Uint32Arra
 export function spread(x: Float32Array, wanted: number): Uint32Array {
   const n = x.length / 3;
   if (n <= wanted) return Uint32Array.from({ length: n }, (_, i) => i);
-  const regular = onGrid(x, wanted);
+  const regular = onGrid(x, wanted, 0.7);
   if (regular) return regular;
   let size = 0;
   for (let k = 0; k < 3; ++k) {
@@ -372,8 +372,8 @@ export function spread(x: Float32Array, wanted: number): Uint32Array {
 }
 
 /** The points nearest to the places of a grid from border to border, for the grid of 0.6 to 1 times `wanted` places that lies closest to the points; nothing where
- *  the points fill less than 70 % of such a grid. */
-function onGrid(x: Float32Array, wanted: number): Uint32Array | undefined {
+ *  the points fill a smaller part of such a grid than `filled`. */
+export function onGrid(x: Float32Array, wanted: number, filled: number): Uint32Array | undefined {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < x.length; ++i) (low[i % 3] = Math.min(low[i % 3], x[i])), (high[i % 3] = Math.max(high[i % 3], x[i]));
   const extent = [0, 1, 2].map((k) => high[k] - low[k]);
@@ -399,7 +399,7 @@ function onGrid(x: Float32Array, wanted: number): Uint32Array | undefined {
       if (!known || far < known[1] - 1e-6) nearest.set(key, [i, far]);
     }
     const close = [...nearest.values()].filter(([, far]) => far < 0.3);
-    if (close.length < 0.7 * places || close.length > wanted) continue;
+    if (close.length < filled * places || close.length > wanted) continue;
     const off = close.reduce((sum, [, far]) => sum + far, 0) / close.length + 0.1 * (1 - close.length / wanted);
     if (off < least) {
       least = off;
@@ -429,4 +429,60 @@ function sieve(x: Float32Array, h: number, wanted: number): number[] {
     else boxes.set(key, [i]);
   }
   return kept;
+}
+
+/** Places of a hexagonal grid on a flat shape, about `wanted` of them, one in the middle of its extent; each in a triangle, by weights of its corners. */
+export interface Samples {
+  places: Float32Array;
+  corners: Uint32Array;
+  weights: Float32Array;
+}
+
+export function sampled(x: Float32Array, triangles: Uint32Array, wanted: number): Samples {
+  const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+  let area = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
+    area += 0.5 * Math.abs((x[b] - x[a]) * (x[c + 1] - x[a + 1]) - (x[c] - x[a]) * (x[b + 1] - x[a + 1]));
+    for (const v of [a, b, c]) for (const k of [0, 1]) (low[k] = Math.min(low[k], x[v + k])), (high[k] = Math.max(high[k], x[v + k]));
+  }
+  const h = Math.sqrt((2 * area) / (Math.sqrt(3) * Math.max(1, wanted))), rise = (Math.sqrt(3) / 2) * h;
+  const middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+  const seen = new Set<string>();
+  const places: number[] = [], corners: number[] = [], weights: number[] = [];
+  for (let t = 0; t < triangles.length; t += 3) {
+    const v = [triangles[t], triangles[t + 1], triangles[t + 2]];
+    const px = v.map((i) => x[3 * i]), py = v.map((i) => x[3 * i + 1]);
+    const twice = (px[1] - px[0]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[1] - py[0]);
+    if (twice === 0) continue;
+    const firstRow = Math.ceil((Math.min(...py) - middle[1]) / rise - 1e-6), lastRow = Math.floor((Math.max(...py) - middle[1]) / rise + 1e-6);
+    for (let row = firstRow; row <= lastRow; ++row) {
+      const y = middle[1] + row * rise, shift = row % 2 === 0 ? 0 : 0.5;
+      const first = Math.ceil((Math.min(...px) - middle[0]) / h - shift - 1e-6), last = Math.floor((Math.max(...px) - middle[0]) / h - shift + 1e-6);
+      for (let k = first; k <= last; ++k) {
+        const at = middle[0] + (k + shift) * h;
+        const w = [0, 1, 2].map((i) => {
+          const j = (i + 1) % 3, l = (i + 2) % 3;
+          return ((px[j] - at) * (py[l] - y) - (px[l] - at) * (py[j] - y)) / twice;
+        });
+        if (Math.min(...w) < -1e-6 || seen.has(`${row},${k}`)) continue;
+        seen.add(`${row},${k}`);
+        places.push(at, y, w[0] * x[3 * v[0] + 2] + w[1] * x[3 * v[1] + 2] + w[2] * x[3 * v[2] + 2]);
+        corners.push(...v);
+        weights.push(...w);
+      }
+    }
+  }
+  return { places: new Float32Array(places), corners: new Uint32Array(corners), weights: new Float32Array(weights) };
+}
+
+/** Directions at the samples, from those at the vertices. */
+export function directionsAt(samples: Samples, values: Float32Array): Float32Array {
+  const out = new Float32Array(samples.places.length);
+  for (let i = 0; i < out.length; i += 3) {
+    for (let k = 0; k < 3; ++k) for (let c = 0; c < 3; ++c) out[i + k] += samples.weights[i + c] * values[3 * samples.corners[i + c] + k];
+    const n = Math.hypot(out[i], out[i + 1], out[i + 2]);
+    for (let k = 0; k < 3; ++k) out[i + k] /= n;
+  }
+  return out;
 }

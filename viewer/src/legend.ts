@@ -12,6 +12,8 @@ export interface LegendContent {
   range?: ShownRange;
   map: string;
   glyphs?: GlyphInfo;
+  /** Arrows and rods are coloured by their direction. */
+  tinted: boolean;
   hasNeutral: boolean;
 }
 
@@ -26,7 +28,7 @@ export function drawLegend(context: CanvasRenderingContext2D, x: number, y: numb
   const ink = colour('--ink'), soft = colour('--soft');
   context.textBaseline = 'alphabetic';
   let right = x + width;
-  if (content.glyphs) right = drawGlyphKey(context, x + width, y, content.glyphs, ink, soft) - 24;
+  if (content.glyphs) right = drawGlyphKey(context, x + width, y, content.glyphs, content.tinted && content.field?.kind !== 'direction', ink, soft) - 24;
   if (!content.field) {
     if (!content.glyphs) {
       context.font = font(12);
@@ -47,7 +49,7 @@ export function drawLegend(context: CanvasRenderingContext2D, x: number, y: numb
   context.font = font(12.5, 600);
   context.fillStyle = ink;
   context.fillText(content.field.label, x, y + 13);
-  if (content.field.kind === 'direction') return drawDisc(context, x, y + 20, soft);
+  if (content.field.kind === 'direction') return drawDirections(context, x, y + 20, soft);
   if (!content.range) return;
   drawBar(context, x, y + 20, Math.min(520, right - x), content.range, content.map, soft);
 }
@@ -88,8 +90,7 @@ function drawBar(context: CanvasRenderingContext2D, x: number, y: number, width:
 }
 
 /** The sphere of directions seen from +z, area-preserving: +z in the middle, -z on the rim. */
-function drawDisc(context: CanvasRenderingContext2D, x: number, y: number, soft: string): void {
-  const r = 32;
+function drawDisc(context: CanvasRenderingContext2D, x: number, y: number, r: number): void {
   const disc = document.createElement('canvas');
   const fine = 4;
   disc.width = disc.height = 2 * r * fine;
@@ -107,27 +108,38 @@ function drawDisc(context: CanvasRenderingContext2D, x: number, y: number, soft:
   inner.putImageData(pixels, 0, 0);
   context.imageSmoothingEnabled = true;
   context.imageSmoothingQuality = 'high';
-  context.drawImage(disc, x + 14, y + 2, 2 * r, 2 * r);
+  context.drawImage(disc, x, y, 2 * r, 2 * r);
+}
+
+function drawDirections(context: CanvasRenderingContext2D, x: number, y: number, soft: string): void {
+  const r = 32;
+  drawDisc(context, x + 14, y + 2, r);
   context.font = font(11.5);
   context.fillStyle = soft;
   const text = ['hue: direction in the xy plane (+x right, +y up)', 'light in the middle: +z', 'dark on the rim: −z'];
   text.forEach((line, k) => context.fillText(line, x + 2 * r + 30, y + 22 + 17 * k));
 }
 
-/** Key of the glyphs, right aligned; returns where it begins. */
-function drawGlyphKey(context: CanvasRenderingContext2D, right: number, y: number, glyphs: GlyphInfo, ink: string, soft: string): number {
+/** Key of the glyphs, right aligned; returns where it begins. `directions`: what the colours of arrows mean is not told elsewhere. */
+function drawGlyphKey(context: CanvasRenderingContext2D, right: number, y: number, glyphs: GlyphInfo, directions: boolean, ink: string, soft: string): number {
   context.font = font(12.5, 600);
   const words = `${{ arrow: 'arrows', rod: 'rods', frame: '', ellipsoid: 'ellipsoids' }[glyphs.kind]} ${glyphs.name}`.trim();
   let left = right - context.measureText(words).width;
   context.font = font(11.5);
   const keys: [string, string][] = glyphs.kind === 'frame' ? [['#e76f54', 'd₁'], ['#61bc83', 'd₂'], ['#5a8fe3', 'd₃']] : [];
   const total = keys.reduce((sum, [, text]) => sum + 14 + context.measureText(text).width + 10, -10);
-  left = Math.min(left, right - (glyphs.kind === 'ellipsoid' ? anisotropyWidth(context) : total));
+  const disc = directions && (glyphs.kind === 'arrow' || glyphs.kind === 'rod');
+  left = Math.min(left, right - (glyphs.kind === 'ellipsoid' ? anisotropyWidth(context) : disc ? context.measureText(discWords).width + 36 : total));
   context.font = font(12.5, 600);
   context.fillStyle = ink;
   context.fillText(words, left, y + 13);
   context.font = font(11.5);
   if (glyphs.kind === 'ellipsoid') drawAnisotropy(context, left, y, soft);
+  if (disc) {
+    drawDisc(context, left, y + 20, 14);
+    context.fillStyle = soft;
+    context.fillText(discWords, left + 36, y + 38);
+  }
   let at = left;
   for (const [paint, text] of keys) {
     context.fillStyle = paint;
@@ -139,6 +151,7 @@ function drawGlyphKey(context: CanvasRenderingContext2D, right: number, y: numbe
   return left;
 }
 
+const discWords = 'seen from +z, −z on the rim';
 const anisotropyWords = 'anisotropy: 0', anisotropyBar = 90;
 
 function anisotropyWidth(context: CanvasRenderingContext2D): number {

@@ -8,6 +8,7 @@ import { extent, ShapeModel } from './geometry';
 import { drawLegend, LegendContent, legendHeight } from './legend';
 import { short } from './numbers';
 import { buildPanel } from './panel';
+import { base64, png } from './png';
 import { Stage } from './stage';
 import { colour, ThemeSwitch } from './theme';
 import { applyWish, readWish, View } from './view';
@@ -94,7 +95,7 @@ class Viewer {
     new ResizeObserver(() => this.resize()).observe(get('stage'));
     this.themed();
     this.resize();
-    this.stage.fit(wish.view, wish.up);
+    this.stage.fit(wish.view, wish.up, false, wish.zoom);
     this.changed();
     this.stage.render();
   }
@@ -103,7 +104,7 @@ class Viewer {
 
   /** Colours of the page have changed. */
   themed(): void {
-    this.stage.setTheme(colour('--stage'), colour('--edge'));
+    this.stage.setTheme(colour('--stage'), colour('--edge'), colour('--border'));
     this.changed();
   }
 
@@ -121,7 +122,7 @@ class Viewer {
     const scale = Math.max(1, width / 1000);
     const under = Math.round((legendHeight(content) + 26) * scale);
     const wish = readWish(location.hash);
-    const drawing = this.stage.picture(width, height - under, wish.picture ? () => this.stage.fit(wish.view, wish.up, true) : undefined);
+    const drawing = this.stage.picture(width, height - under, wish.picture ? () => this.stage.fit(wish.view, wish.up, true, wish.zoom) : undefined);
     const out = document.createElement('canvas');
     out.width = width;
     out.height = height;
@@ -137,8 +138,7 @@ class Viewer {
 
   private async save(): Promise<void> {
     const canvas = await this.picture(Math.max(1600, get('stage').clientWidth * 2), Math.max(1000, get('stage').clientHeight * 2));
-    const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done));
-    if (!blob) return;
+    const blob = await png(canvas);
     const link = document.createElement('a');
     link.href = URL.createObjectURL(blob);
     link.download = `${(this.data.header.title || 'karcher').replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '').toLowerCase() || 'karcher'}.png`;
@@ -183,6 +183,7 @@ class Viewer {
       range: this.stage.range(),
       map: this.view.map,
       glyphs: this.model.shape.glyphs.find((g) => g.name === this.view.glyphs),
+      tinted: this.stage.tinted(),
       hasNeutral: (field?.not_finite ?? 0) > 0,
     };
   }
@@ -283,7 +284,7 @@ async function start(page: KarcherPage): Promise<void> {
       markStep(get('details'), step);
     });
     page.view = viewer.view;
-    page.picture = async (width, height) => (await viewer!.picture(width, height)).toDataURL('image/png').replace(/^data:image\/png;base64,/, '');
+    page.picture = async (width, height) => base64(await png(await viewer!.picture(width, height)));
   }
   diagrams.build();
 }

@@ -6,8 +6,8 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { frame, goodDirection } from './camera';
 import { colourMap, table } from './colours';
-import { FieldInfo } from './data';
-import { averaged, Extent, extent, Faces, ShapeModel, spread, tubes } from './geometry';
+import { FieldInfo, GlyphInfo } from './data';
+import { averaged, directionsAt, Extent, extent, Faces, onGrid, sampled, Samples, ShapeModel, spread, tubes } from './geometry';
 import { glyphGeometry, largestGlyph } from './glyphs';
 import { ClipPlane, glyphMaterial, lineMaterial, mapTexture, Mode, setClip, surfaceMaterial } from './shading';
 import { View } from './view';
@@ -38,7 +38,7 @@ export class Stage {
   private glyph: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly extents = new Map<string, Extent>();
   private readonly glyphSizes = new Map<string, number>();
-  private readonly chosen = new Map<string, Uint32Array>();
+  private readonly chosen = new Map<string, Uint32Array | Samples>();
   private tubeVertices: number[] = [];
   private tubeCells: number[] = [];
   private texture?: DataTexture;
@@ -47,6 +47,7 @@ export class Stage {
   private edgeLength = 1;
   private pending = false;
   private ink = new Color(0x000000);
+  private border = new Color(0x000000);
   onRender: () => void = () => undefined;
 
   constructor(readonly canvas: HTMLCanvasElement, readonly model: ShapeModel, private view: View) {
@@ -91,9 +92,11 @@ export class Stage {
     }
   }
 
-  setTheme(ground: string, ink: string): void {
+  /** Colours of the ground, of element edges and curves, and of borders and creases. */
+  setTheme(ground: string, ink: string, border: string): void {
     this.scene.background = new Color(ground);
     this.ink = new Color(ink);
+    this.border = new Color(border);
     this.request();
   }
 
@@ -116,7 +119,7 @@ export class Stage {
   }
 
   /** Looks from `direction` (or from where most is seen) at the whole shape: in the states from first to last, or in the one that is shown. */
-  fit(direction?: [number, number, number], up?: [number, number, number], still = false): void {
+  fit(direction?: [number, number, number], up?: [number, number, number], still = false, zoom = 1): void {
     const { model, view } = this;
     const last = model.positions(still ? view.state : model.shape.states.length - 1, view.scale);
     const shown = [last];
@@ -128,7 +131,10 @@ export class Stage {
     const upward = up ? new Vector3(...up) : straight ? new Vector3(0, 1, 0) : this.up();
     const flat = this.tilted() ? new Vector3(-0.28, -1, 1.25) : new Vector3(0, 0, 1);
     const from = direction ? new Vector3(...direction) : model.shape.flat ? flat : goodDirection(last, upward);
-    const target = frame(this.camera, shown, from, upward, model.shape.flat || glyphs ? 1.12 : 1.08);
+    const plane = this.clipPlane();
+    const left = still && view.clip !== '' ? shown.map((x) => uncut(x, plane)) : shown;
+    const target = frame(this.camera, left, from, upward, model.shape.flat || glyphs ? 1.12 : 1.08);
+    this.camera.position.sub(target).divideScalar(zoom).add(target);
     this.controls.dispose();
     this.controls = this.makeControls();
     this.controls.target.copy(target);
@@ -138,6 +144,11 @@ export class Stage {
 
   field(name: string): FieldInfo | undefined {
     return this.model.shape.fields.find((f) => f.name === name);
+  }
+
+  /** Whether arrows and rods are coloured by their direction: where the surface below them is not, or is faint. */
+  tinted(): boolean {
+    return this.field(this.view.field)?.kind !== 'direction' || this.view.opacity < 1 || !this.view.surface;
   }
 
   /** Draws soon; many requests make one drawing. */
@@ -244,7 +255,7 @@ export class Stage {
       this.paint();
       this.drawn.values = values;
     }
-    const glyphs = `${view.glyphs}/${view.state}/${view.scale}/${view.glyphSize}/${view.glyphDensity}/${view.field}`;
+    const glyphs = `${view.glyphs}/${view.state}/${view.scale}/${view.glyphSize}/${view.glyphDensity}/${this.tinted()}`;
     if (glyphs !== this.drawn.glyphs) {
       this.plant();
       this.drawn.glyphs = glyphs;
@@ -281,13 +292,13 @@ export class Stage {
     const ratio = this.renderer.getPixelRatio();
     const pixels = (this.edgeLength * buffer.y) / (2 * Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.position.distanceTo(this.controls.target)) / ratio;
     const faint = Math.min(0.42, Math.max(0.10, 0.03 * (pixels - 2)));
-    for (const [mesh, alpha, width] of [
-      [this.thin, faint, 1.0],
-      [this.strong, 0.85, 1.6],
-      [this.trail, 0.5, 1.3],
+    for (const [mesh, ink, alpha, width] of [
+      [this.thin, view.surface ? this.ink : this.border, faint, 1.0],
+      [this.strong, this.border, 0.85, 1.6],
+      [this.trail, model.shape.sphere ? this.ink : this.border, 0.5, 1.3],
     ] as const) {
       const u = mesh.material.uniforms;
-      (u.ink.value as Vector4).set(this.ink.r, this.ink.g, this.ink.b, view.surface ? alpha : Math.max(alpha, 0.6));
+      (u.ink.value as Vector4).set(ink.r, ink.g, ink.b, view.surface ? alpha : Math.max(alpha, 0.6));
       u.width.value = width * ratio;
       (u.screen.value as Vector3).set(buffer.x, buffer.y, 1);
       setClip(mesh.material, cells ? whole : plane);
@@ -398,24 +409,46 @@ export class Stage {
     const { model, view } = this;
     const g = model.shape.glyphs.find((set) => set.name === view.glyphs);
     if (!g) return;
-    const x = model.glyphPositions(g, view.state, view.scale);
     const wanted = Math.round(view.glyphDensity);
     const key = `${g.name}/${wanted}`;
     let chosen = this.chosen.get(key);
     if (!chosen) {
-      chosen = spread(model.data.floats(g.reference), wanted);
+      chosen = this.choose(g, wanted);
       this.chosen.set(key, chosen);
     }
-    const values = model.data.floats(g.arrays[g.arrays.length === 1 ? 0 : view.state]);
+    let x: Float32Array, values: Float32Array, which: Uint32Array;
+    if (chosen instanceof Uint32Array) {
+      x = model.glyphPositions(g, view.state, view.scale);
+      values = model.data.floats(g.arrays[g.arrays.length === 1 ? 0 : view.state]);
+      which = chosen;
+    } else {
+      x = chosen.places;
+      values = directionsAt(chosen, model.values(this.directions(g)!, view.state));
+      which = Uint32Array.from({ length: x.length / 3 }, (_, i) => i);
+    }
     let largest = this.glyphSizes.get(g.name);
     if (largest === undefined) {
       largest = Math.max(...g.arrays.map((index) => largestGlyph(g.kind, model.data.floats(index))));
       this.glyphSizes.set(g.name, largest);
     }
-    const size = (view.glyphSize * this.glyphSpacing(model.data.floats(g.reference), chosen)) / largest;
-    const geometry = glyphGeometry(g.kind, x, values, chosen, size, this.field(view.field)?.kind !== 'direction', [0.16, 0.17, 0.2]);
+    const spacing = this.glyphSpacing(chosen instanceof Uint32Array ? model.data.floats(g.reference) : x, which);
+    const geometry = glyphGeometry(g.kind, x, values, which, (view.glyphSize * spacing) / largest, this.tinted(), [0.16, 0.17, 0.2]);
     this.glyph.geometry.dispose();
     this.glyph.geometry = geometry;
+  }
+
+  /** The directions of a set of arrows or rods at the vertices, if they are known there. */
+  private directions(g: GlyphInfo): FieldInfo | undefined {
+    return this.model.shape.fields.find((f) => f.kind === 'direction' && f.name === g.name);
+  }
+
+  /** Points where glyphs stand; places between the nodes where a flat shape has nodes that fill no grid. */
+  private choose(g: GlyphInfo, wanted: number): Uint32Array | Samples {
+    const { model } = this;
+    const nodes = model.data.floats(g.reference);
+    const between = model.shape.flat && model.hasSurface && model.shape.displacement.length === 0 && (g.kind === 'arrow' || g.kind === 'rod') && this.directions(g);
+    if (!between || onGrid(nodes, wanted, 0.95)) return spread(nodes, wanted);
+    return sampled(model.positions(0, 1), model.faces.triangles, wanted);
   }
 
   /** Distance between neighbours if the chosen points were spread evenly over the extent of the points. */
@@ -439,4 +472,13 @@ function among(segments: Uint32Array, triangles: Uint32Array): Uint32Array {
   const out: number[] = [];
   for (let i = 0; i < segments.length; i += 2) if (seen.has(segments[i]) && seen.has(segments[i + 1])) out.push(segments[i], segments[i + 1]);
   return new Uint32Array(out);
+}
+
+/** The points on this side of a plane. */
+function uncut(x: Float32Array, plane: ClipPlane): Float32Array {
+  const out: number[] = [];
+  for (let i = 0; i < x.length; i += 3) {
+    if (plane.normal[0] * x[i] + plane.normal[1] * x[i + 1] + plane.normal[2] * x[i + 2] <= plane.offset) out.push(x[i], x[i + 1], x[i + 2]);
+  }
+  return new Float32Array(out);
 }

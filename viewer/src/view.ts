@@ -32,6 +32,8 @@ export interface Wish {
   view?: [number, number, number];
   up?: [number, number, number];
   field?: string;
+  /** How many times nearer than what shows the whole shape. */
+  zoom: number;
   step?: number;
   picture: boolean;
   theme?: 'light' | 'dark';
@@ -50,6 +52,7 @@ export function readWish(hash: string): Wish {
     view: triple(values.get('view')),
     up: triple(values.get('up')),
     field: values.get('field') ?? undefined,
+    zoom: Number(values.get('zoom')) > 0 ? Number(values.get('zoom')) : 1,
     step: values.has('step') ? Number(values.get('step')) : undefined,
     picture: values.has('picture'),
     theme: theme === 'light' || theme === 'dark' ? theme : undefined,

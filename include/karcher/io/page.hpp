@@ -38,7 +38,8 @@ class PageStates {
 struct PageLimits {
   int triangles = 200000;
   int states = 60;
-  int glyphs = 3000;
+  int glyphs = 3000;         ///< of a field; more where there are few states:
+  int glyph_values = 40000;  ///< glyphs times states
 };
 
 /// Makes <directory>/report.html, atomically.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/judge.hpp"
 #include "program_runner.hpp"
 
 namespace karcher::testing {
@@ -92,6 +93,38 @@ TEST(Run, LeavesEverythingThatResultsPromise) {
   EXPECT_NE(o.out.find("converged"), std::string::npos);
   EXPECT_NE(o.out.find("factorisation"), std::string::npos);
   EXPECT_EQ(o.out.find('\r'), std::string::npos) << "no transient line where there is no terminal";
+}
+
+TEST(Run, VtkReadsTheFilesOfAnyNumberOfRanks) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  std::vector<json> all;
+  for (const char* ranks : {"", " -n 2"}) {
+    ASSERT_EQ(shop.karcher(std::string("run strip.toml -q") + ranks).code, 0);
+    const json entries = judge({shop.directory() / "strip/solution.pvd"}, true)[0]["entries"];
+    ASSERT_EQ(entries.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const json& vtu = entries[k]["vtu"];
+      EXPECT_EQ(entries[k]["timestep"], 0.5 * static_cast<double>(k));
+      EXPECT_EQ(vtu["time"], json({0.5 * static_cast<double>(k)}));
+      EXPECT_EQ(vtu["points"], 45);
+      EXPECT_EQ(vtu["cells"], json({{"69", {{"count", 16}, {"nodes", {6}}}}}));
+      EXPECT_EQ(vtu["point_data"],
+                json({{"m", 3}, {"displacement", 3}, {"reference", 3}, {"Q", 4}, {"director1", 3}, {"director2", 3}, {"director3", 3}}));
+      for (const char* name : {"energy_density.cosserat-shell", "energy_density.cosserat-shell.membrane", "energy_density.cosserat-shell.bending",
+                               "energy_density.cosserat-shell.curvature"})
+        EXPECT_EQ(vtu["cell_data"].value(name, 0), 1) << name;
+    }
+    EXPECT_NEAR(entries[0]["vtu"]["measure"]["2"].get<double>(), 2, 1e-14);
+    EXPECT_NEAR(entries[0]["vtu"]["integrals"]["reference"][0].get<double>(), 2, 1e-14);  // of x over the strip
+    EXPECT_NEAR(entries[0]["vtu"]["integrals"]["director3"][2].get<double>(), 2, 1e-14);
+    // The load hardly stretches the strip, so that the energy per area adds up to the energy.
+    const double energy = summary(shop, "strip")["energies"]["cosserat-shell"];
+    EXPECT_NEAR(entries[2]["vtu"]["integrals"]["energy_density.cosserat-shell"][0].get<double>(), energy, 1e-4 * energy);
+    all.push_back(entries[2]["vtu"]["values"]["displacement"]);
+  }
+  ASSERT_EQ(all[0].size(), all[1].size());
+  for (std::size_t i = 0; i < all[0].size(); ++i) EXPECT_NEAR(all[0][i].get<double>(), all[1][i].get<double>(), 1e-6);
 }
 
 TEST(Run, AResolvedProblemGivesTheSameAnswer) {

@@ -11,5 +11,4 @@ for name in "$@"; do
   [ -f "examples/$name/view" ] && read -r -a options <"examples/$name/view"
   "$program" run "examples/$name/problem.toml" --output "results/$name" --quiet
   "$program" view "results/$name" --png "examples/$name/picture.png" "${options[@]}"
-  echo "examples/$name/picture.png"
 done

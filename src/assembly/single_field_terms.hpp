@@ -10,6 +10,7 @@
 #include "karcher/energy/harmonic.hpp"
 #include "karcher/energy/l2_distance.hpp"
 #include "karcher/error.hpp"
+#include "sphere_harmonic_term.hpp"
 
 namespace karcher {
 
@@ -41,7 +42,11 @@ template <class M>
 std::unique_ptr<Term> make_harmonic_term(TermInput input) {
   return with_dimension<1, 2, 3>(input, [&]<int D>() {
     return with_rule<M, D>(input, [&]<class I>() -> std::unique_ptr<Term> {
-      return std::make_unique<DensityTerm<HarmonicModel, D, I>>("harmonic", input, HarmonicModel{}, std::vector<std::string>{"scale"});
+      const std::vector<std::string> keys{"scale"};
+      if constexpr (requires { requires std::is_same_v<I, SphereProjection<M, D, NativeScalar>>; })
+        return std::make_unique<SphereHarmonicTerm<M, D>>("harmonic", input, HarmonicModel{}, keys);
+      else
+        return std::make_unique<DensityTerm<HarmonicModel, D, I>>("harmonic", input, HarmonicModel{}, keys);
     });
   });
 }

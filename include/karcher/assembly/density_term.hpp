@@ -22,13 +22,13 @@ namespace density_detail {
 
 template <class Density, class... U>
 auto value(const Density& density, const U&... u) {
-  if constexpr (requires { density.parts(u...); }) {
+  if constexpr (requires { density(u...); }) {
+    return density(u...);
+  } else {
     const auto parts = density.parts(u...);
     auto w = parts[0];
     for (std::size_t i = 1; i < parts.size(); ++i) w += parts[i];
     return w;
-  } else {
-    return density(u...);
   }
 }
 
@@ -154,6 +154,26 @@ class DensityTerm : public Term {
     return state.interpolation.evaluate(state.nodes.data(), state.weights);
   }
 
+  /// All lanes of an entry.
+  static void put(const T& x, std::size_t entry, AlignedVector<double>& to) {
+    if constexpr (W == 1)
+      to[entry] = x;
+    else
+      x.store(to.data() + entry * W);
+  }
+
+  static void report(const T& energy, const MaskOf<T>& defined, BatchResult& out) {
+    for (int lane = 0; lane < W; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      out.energy[l] = karcher::lane(energy, lane);
+      const bool lane_defined = karcher::lane(select(defined, T(1.0), T(0.0)), lane) > 0;
+      out.trouble[l] = !lane_defined               ? Trouble::undefined_interpolation
+                       : std::isinf(out.energy[l]) ? Trouble::infinite_energy
+                       : std::isnan(out.energy[l]) ? Trouble::not_finite
+                                                   : Trouble::none;
+    }
+  }
+
   auto density(int b, int q) const {
     return model_.template at<T>(std::span<const T>(values_.data() + batches_.point_index(b, q) * parameters_.size(), parameters_.size()));
   }
@@ -211,15 +231,7 @@ class DensityTerm : public Term {
     }
     if (want == Want::hessian) (add_blocks<f>(kind, begin, std::get<f>(second), hessian), ...);
 
-    for (int lane = 0; lane < W; ++lane) {
-      const auto l = static_cast<std::size_t>(lane);
-      out.energy[l] = karcher::lane(energy, lane);
-      const bool lane_defined = karcher::lane(select(defined, T(1.0), T(0.0)), lane) > 0;
-      out.trouble[l] = !lane_defined               ? Trouble::undefined_interpolation
-                       : std::isinf(out.energy[l]) ? Trouble::infinite_energy
-                       : std::isnan(out.energy[l]) ? Trouble::not_finite
-                                                   : Trouble::none;
-    }
+    report(energy, defined, out);
     store(gradient, out.gradient);
     store(hessian, out.hessian);
   }
@@ -320,8 +332,7 @@ class DensityTerm : public Term {
   }
 
   static void store(const std::vector<T>& from, AlignedVector<double>& to) {
-    for (std::size_t i = 0; i < from.size(); ++i)
-      for (int lane = 0; lane < W; ++lane) to[i * W + static_cast<std::size_t>(lane)] = karcher::lane(from[i], lane);
+    for (std::size_t i = 0; i < from.size(); ++i) put(from[i], i, to);
   }
 
   std::string name_;

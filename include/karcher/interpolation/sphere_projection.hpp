@@ -48,6 +48,9 @@ class SphereProjection {
   }
   const FieldJet<M, D, T>& jet() const { return jet_; }
   const Mat<T, N, k>& frame() const { return frame_; }
+  const Mat<T, N, k>& node_frame(std::size_t i) const { return node_frames_[i]; }
+  const T& inverse_length() const { return r_; }           ///< 1 / |X|
+  const T& stretch(std::size_t a) const { return s_[a]; }  ///< q . X_a / |X|
   Vec<T, L> local_coordinates() const {
     Vec<T, L> y;
     for (int a = 0; a < D; ++a)

@@ -155,8 +155,9 @@ class DensityTerm : public Term {
   }
 
   /// All lanes of an entry.
-  static void put(const T& x, std::size_t entry, AlignedVector<double>& to) {
-    if constexpr (W == 1)
+  template <class P>
+  static void put(const P& x, std::size_t entry, AlignedVector<double>& to) {
+    if constexpr (lanes<P> == 1)
       to[entry] = x;
     else
       x.store(to.data() + entry * W);

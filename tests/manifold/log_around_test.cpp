@@ -4,17 +4,14 @@
 
 #include <cmath>
 
-#include "karcher/manifold/rotation.hpp"
 #include "karcher/manifold/spd.hpp"
-#include "karcher/manifold/sphere.hpp"
-#include "karcher/manifold/unitary.hpp"
 #include "karcher/testing/random.hpp"
 
 using namespace karcher;
 
 template <class M>
 class LogAround : public testing::Test {};
-using Manifolds = testing::Types<Sphere<1>, Sphere<2>, Sphere<3>, Unitary, Rotation, Spd<2>, Spd<3>>;
+using Manifolds = testing::Types<Spd<2>, Spd<3>>;
 TYPED_TEST_SUITE(LogAround, Manifolds);
 
 TYPED_TEST(LogAround, HasTheLengthOfLogWithItsFirstTwoDerivatives) {
@@ -24,8 +21,7 @@ TYPED_TEST(LogAround, HasTheLengthOfLogWithItsFirstTwoDerivatives) {
   Random random(3);
   for (double r : {0.0, 1e-8, 0.3, 1.2, 2.0}) {
     const auto q = retract<M>(M::origin(), random.direction<k>());
-    auto p = retract<M>(q, r * random.direction<k>());
-    if constexpr (std::is_same_v<M, Rotation>) p = -p;
+    const auto p = retract<M>(q, r * random.direction<k>());
     const auto e = M::frame(q), f = M::frame(p);
     Vec<J, k> w, v;
     for (int i = 0; i < k; ++i) {
@@ -110,28 +106,5 @@ TYPED_TEST(LogAround, AgreesInPacks) {
       EXPECT_NEAR(x.v.v, 0, 1e-14);
       for (std::size_t h = 0; h < x.d[1].h.size(); ++h) EXPECT_NEAR(x.d[1].h[h], 0, 1e-11);
     }
-  }
-}
-
-TEST(ChordAround, HasTheLengthOfTheChordWithItsFirstTwoDerivatives) {
-  using M = Rotation;
-  using J = Jet<double, 6>;
-  Random random(6);
-  for (double r : {0.0, 1e-8, 0.5, 2.0}) {
-    const auto q = retract<M>(M::origin(), random.direction<3>()), p = -retract<M>(q, r * random.direction<3>());
-    const auto e = M::frame(q), f = M::frame(p);
-    Vec<J, 3> w, v;
-    for (int i = 0; i < 3; ++i) {
-      w[i] = J::variable(0, i);
-      v[i] = J::variable(0, 3 + i);
-    }
-    const auto theta = M::ChordAround<J, double>(q, e, w).theta(p, f, v);
-    const auto a = M::exp(cast<J>(q), cast<J>(e) * w), chord = M::chord(a, M::exp(cast<J>(p), cast<J>(f) * v));
-    const J squared = norm2(theta), expected = M::inner(a, chord, chord);
-    EXPECT_NEAR(squared.v, expected.v, 1e-14);
-    for (std::size_t i = 0; i < squared.g.size(); ++i) EXPECT_NEAR(squared.g[i], expected.g[i], 1e-13);
-    for (std::size_t i = 0; i < squared.h.size(); ++i) EXPECT_NEAR(squared.h[i], expected.h[i], 1e-13);
-    const auto body = coordinates<M>(q, e, M::chord(q, p));
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(theta[i].v, body[i], 1e-14);
   }
 }

@@ -46,9 +46,8 @@ struct ByExponential {
   };
 };
 struct LogFunction;
-struct ChordFunction;
 namespace mean_detail {
-/// M::LogAround and M::ChordAround where a manifold has them (the same contract as Around, written by hand), else the general one.
+/// M::LogAround where a manifold has it (the same contract as Around, written by hand), else the general one.
 template <class M, class S, class T>
 struct LogAround {
   using type = typename ByExponential<LogFunction>::template Around<M, S, T>;
@@ -57,15 +56,6 @@ template <class M, class S, class T>
 requires requires { typename M::template LogAround<S, T>; }
 struct LogAround<M, S, T> {
   using type = typename M::template LogAround<S, T>;
-};
-template <class M, class S, class T>
-struct ChordAround {
-  using type = typename ByExponential<ChordFunction>::template Around<M, S, T>;
-};
-template <class M, class S, class T>
-requires requires { typename M::template ChordAround<S, T>; }
-struct ChordAround<M, S, T> {
-  using type = typename M::template ChordAround<S, T>;
 };
 }  // namespace mean_detail
 struct LogFunction : ByExponential<LogFunction> {
@@ -79,8 +69,6 @@ struct LogFunction : ByExponential<LogFunction> {
 };
 struct ChordFunction : ByExponential<ChordFunction> {
   static constexpr bool is_geodesic = false;
-  template <class M, class S, class T>
-  using Around = typename mean_detail::ChordAround<M, S, T>::type;
   template <class M, class T>
   static Vec<T, M::ambient> at(const Point<M, T>& q, const Point<M, T>& p) {
     return M::chord(q, p);

@@ -79,7 +79,7 @@ concept ProjectionIsWhole = requires(Point<M> p) {
 /// M::unit_scale               points are the unit vectors of R^ambient, log is that of the sphere, the metric s^2 times the ambient one: s = 1; or s = 2, where p
 ///                             and -p are besides the same point (rotations). Interpolation has closed forms then (unit_vector_mean.hpp)
 /// M::origin()                 some point, at double: where the law suite begins
-/// M::LogAround<S, T>, M::ChordAround<S, T>   log_q(w)(p(v)) and chord in a moving frame, written by hand (unit_log_around.hpp, spd.hpp) for weighted_mean.hpp
+/// M::LogAround<S, T>          log_q(w)(p(v)) in a moving frame, written by hand (spd.hpp) for weighted_mean.hpp
 /// M::dist(p, q), M::defect(x), M::make_point(x, p)   at double: see distance() below and any_manifold.hpp
 template <class M>
 concept Manifold = manifold_detail::HasName<M> && manifold_detail::HasDimensions<M> && manifold_detail::HasExp<M> && manifold_detail::HasLog<M> &&

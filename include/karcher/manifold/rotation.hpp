@@ -58,10 +58,6 @@ struct Rotation {
     const T c = dot(p, q);
     return (T(2.0) * c) * (p - c * q);
   }
-  template <class S, class T>
-  using LogAround = UnitLogAround<3, 2, true, S, T>;
-  template <class S, class T>
-  using ChordAround = UnitVectorAround<3, 2, true, true, S, T>;
   static double defect(const Vec<double, 4>& x) { return unit_vector::defect(x); }
 
   /// The rotation matrix.

@@ -12,7 +12,6 @@
 #include <numbers>
 
 #include "karcher/manifold/manifold.hpp"
-#include "karcher/manifold/unit_log_around.hpp"
 #include "karcher/math/functions.hpp"
 
 namespace karcher {
@@ -131,8 +130,6 @@ struct Sphere {
   static Vec<T, N + 1> chord(const Vec<T, N + 1>& q, const Vec<T, N + 1>& p) {
     return unit_vector::chord(q, p);
   }
-  template <class S, class T>
-  using LogAround = UnitLogAround<N, 1, false, S, T>;
   static double defect(const Vec<double, N + 1>& x) { return unit_vector::defect(x); }
 };
 

@@ -47,8 +47,6 @@ struct Unitary {
   static Vec<T, 4> chord(const Vec<T, 4>& q, const Vec<T, 4>& p) {
     return unit_vector::chord(q, p);
   }
-  template <class S, class T>
-  using LogAround = UnitLogAround<3, 1, false, S, T>;
   static double defect(const Vec<double, 4>& x) { return unit_vector::defect(x); }
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "karcher/error.hpp"
 #include "karcher/solve/continuation.hpp"
@@ -292,6 +293,17 @@ TEST(Minimize, AVeryShortInitialRadiusIsNoConvergence) {
     EXPECT_EQ(report.status, Status::converged) << report.reason;
     EXPECT_LT(report.energy, 3.99) << radius;
   }
+}
+
+TEST(Minimize, ReportsReadAsOneSentence) {
+  StepReport report;
+  report.status = Status::converged;
+  report.iterations = 1;
+  report.energy = 6.963591204935;
+  report.reason = "Nothing is left to do.";
+  std::ostringstream text;
+  text << report;
+  EXPECT_EQ(text.str(), "energy 6.963591204935, converged after 1 iteration: Nothing is left to do.");
 }
 
 TEST(Minimize, StopsAtTheAllowedNumberOfIterationsAndSaysSo) {

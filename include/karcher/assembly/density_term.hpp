@@ -73,12 +73,12 @@ class DensityTerm : public Term {
     compute_parameters(input.t, true);
   }
 
-  /// Twice the highest order p of the fields plus two, which is exact for the squared gradient of polynomials on affine cells and a little more; on curves and
+  /// Twice the highest order p of the fields plus one, which is exact for the squared gradient of polynomials on affine cells and a little more; on curves and
   /// surfaces plus four, since the interpolation is not polynomial (measured for harmonic maps into S^2: 1e-7 relative of the energy for Q1, 1e-11 for Q2).
   static int default_degree(const TermInput& input, CellKind kind) {
     int order = 1;
     for (int f : input.fields) order = std::max(order, input.all_fields[static_cast<std::size_t>(f)].space->order());
-    return 2 * order + (dimension(kind) == 3 ? 2 : 4);
+    return 2 * order + (dimension(kind) == 3 ? 1 : 4);
   }
 
   const std::string& name() const override { return name_; }

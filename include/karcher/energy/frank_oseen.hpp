@@ -32,11 +32,11 @@ struct FrankOseen {
   auto operator()(const Jet& u) const {
     const auto [divergence, curl] = divergence_and_curl(u);
     using S = std::decay_t<decltype(divergence)>;
-    const S twist = dot(u.value, curl), along = field_along(u);
-    S w = divergence * divergence * (0.5 * K1);
-    w += twist * twist * (0.5 * (K2 - K3));
-    w += dot(curl, curl) * (0.5 * K3);
-    w -= along * along * (0.5 * chi);
+    S w(0.0);
+    add_square(w, divergence, 0.5 * K1);
+    add_square(w, dot(u.value, curl), 0.5 * (K2 - K3));
+    for (int i = 0; i < 3; ++i) add_square(w, curl[i], 0.5 * K3);
+    add_square(w, field_along(u), -0.5 * chi);
     return w;
   }
 

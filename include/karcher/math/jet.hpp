@@ -114,6 +114,19 @@ void add_product(Jet<T, N>& s, const Jet<T, N>& a, const Jet<T, N>& b) {
   }
 }
 
+/// s += w x^2.
+template <class T, int N>
+void add_square(Jet<T, N>& s, const Jet<T, N>& x, const T& w) {
+  const T wx = w * x.v, slope = wx + wx, curvature = w + w;
+  s.v += wx * x.v;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    s.g[i] += slope * x.g[i];
+    const T row = curvature * x.g[i];
+    for (std::size_t j = i; j < N; ++j, ++k) s.h[k] += slope * x.h[k] + row * x.g[j];
+  }
+}
+
 /// f(x) where f has the value f0 and the derivatives f1, f2 at x.v (chain rule).
 template <class T, int N>
 Jet<T, N> compose(const Jet<T, N>& x, const T& f0, const T& f1, const T& f2) {

@@ -104,6 +104,12 @@ constexpr void add_product(T& s, const T& a, const T& b) {
   s += a * b;
 }
 
+/// s += w x^2 for a plain number w. Scalars with derivatives have their own, as above.
+template <class T, class W>
+constexpr void add_square(T& s, const T& x, const W& w) {
+  s += x * x * w;
+}
+
 // Products.
 template <class T, int N>
 constexpr T dot(const Vec<T, N>& a, const Vec<T, N>& b) {

@@ -112,7 +112,12 @@ std::filesystem::path examples_directory() {
 
 int list(const std::string& what) {
   const std::vector<std::string> topics{"manifolds", "energies", "loads", "meshes", "examples"};
-  if (what == "manifolds") {
+  if (what.empty()) {
+    for (const char* topic : {"manifolds", "energies", "meshes", "examples"}) {
+      fmt::print("{}{}\n", topic == topics.front() ? "" : "\n", topic);
+      list(topic);
+    }
+  } else if (what == "manifolds") {
     for (const std::string& name : manifold_names()) {
       const ManifoldOps& m = manifold_by_name(name);
       fmt::print("{:<6} dimension {}, {} ambient coordinates, {}: {}\n", name, m.dim, m.ambient,

@@ -112,7 +112,7 @@ int command_line(int argc, char** argv) {
 
   std::string what;
   CLI::App& list_verb = *app.add_subcommand("list", "what there is: manifolds, energies, loads, meshes, examples");
-  list_verb.add_option("WHAT", what, "manifolds, energies, loads, meshes or examples")->required();
+  list_verb.add_option("WHAT", what, "manifolds, energies, loads, meshes or examples; all of them if not given");
   list_verb.callback([&] { action = [&] { return list(what); }; });
 
   std::string key;

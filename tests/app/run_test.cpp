@@ -468,6 +468,9 @@ TEST(Catalogue, ListsAndExplains) {
     EXPECT_GT(std::count(o.out.begin(), o.out.end(), '\n'), 3) << what;
   }
   EXPECT_NE(shop.karcher("list manifolds").out.find("SPD3"), std::string::npos);
+  const std::string everything = shop.karcher("list").out;
+  for (const char* entry : {"SPD3", "cosserat-shell", "traction", "klein-bottle", "curve-shortening"})
+    EXPECT_NE(everything.find(entry), std::string::npos) << entry;
   EXPECT_NE(shop.karcher("list energies").out.find("cosserat-shell"), std::string::npos);
   EXPECT_NE(shop.karcher("doc energies.cosserat-shell").out.find("thickness"), std::string::npos);
   EXPECT_NE(shop.karcher("doc mesh.generate").out.find("klein-bottle"), std::string::npos);

@@ -83,7 +83,7 @@ class Viewer {
     if (wish.step !== undefined) {
       const at = shape.states.findIndex((s) => s.step === wish.step);
       if (at >= 0) this.view.state = at;
-      else notes.push(`Load step ${wish.step} is not in this page.`);
+      else notes.push(`Load step ${wish.step} is not in this page; it has ${shape.states.map((s) => s.step).join(', ')}.`);
     }
     this.wishes = notes;
     this.stage = new Stage(get<HTMLCanvasElement>('canvas'), model, this.view);

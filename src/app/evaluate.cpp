@@ -39,10 +39,10 @@ int evaluate(const EvaluateOptions& options) {
   const Configuration& u = model.discretisation.initial;
   std::vector<double> gradient(static_cast<std::size_t>(model.layout->local_dofs()));
   require_energy(problem, model);
-  model.functional->gradient(u, gradient);
+  const Evaluation evaluation = model.functional->gradient(u, gradient);
 
   const auto& terms = model.functional->terms();
-  std::vector<double> sums = model.functional->energy(u).terms;
+  std::vector<double> sums = evaluation.terms;
   for (const auto& term : terms) {
     const std::vector<double> parts = term->part_energies(u);
     sums.insert(sums.end(), parts.begin(), parts.end());

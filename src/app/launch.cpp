@@ -72,9 +72,10 @@ std::optional<int> launch_ranks(int ranks, int argc, char** argv) {
   command.insert(command.end(), {"-n", std::to_string(ranks), std::filesystem::canonical("/proc/self/exe").string()});
   for (int i = 1; i < argc; ++i) command.emplace_back(argv[i]);
 
-  char status_file[] = "/tmp/karcher-XXXXXX";
-  const int descriptor = mkstemp(status_file);
-  if (descriptor < 0) throw Error(fmt::format("No temporary file can be made in /tmp: {}.", std::strerror(errno)));
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  std::string status_file = (folder / "karcher-XXXXXX").string();  // mkstemp writes the name
+  const int descriptor = mkstemp(status_file.data());
+  if (descriptor < 0) throw Error(fmt::format("No temporary file can be made in {}: {}.", folder.string(), std::strerror(errno)));
   close(descriptor);
 
   std::vector<char*> arguments;
@@ -84,7 +85,7 @@ std::optional<int> launch_ranks(int ranks, int argc, char** argv) {
   const pid_t child = fork();
   if (child < 0) throw Error(fmt::format("mpiexec cannot be started: {}.", std::strerror(errno)));
   if (child == 0) {
-    setenv(status_variable, status_file, 1);
+    setenv(status_variable, status_file.c_str(), 1);
     setenv(terminal_variable, isatty(STDOUT_FILENO) ? "1" : "0", 1);
     // Open MPI refuses to run as root, as one does in containers, unless both are set.
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);

@@ -14,6 +14,8 @@
 #include <sstream>
 #include <string>
 
+#include "temporary_directory.hpp"
+
 namespace karcher::testing {
 
 struct Outcome {
@@ -29,26 +31,14 @@ inline std::string content(const std::filesystem::path& file) {
 /// A directory that disappears with it.
 class Workshop {
  public:
-  Workshop() {
-    std::string name = (std::filesystem::temp_directory_path() / "karcher-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) std::abort();
-    directory_ = name;
-  }
-  ~Workshop() {
-    std::error_code code;
-    std::filesystem::remove_all(directory_, code);
-  }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-
-  const std::filesystem::path& directory() const { return directory_; }
+  const std::filesystem::path& directory() const { return directory_.path(); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(directory_ / name, std::ios::binary) << text;
     return directory_ / name;
   }
   /// "karcher ARGUMENTS", run in the directory. \param before shell words before it
   Outcome karcher(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + directory_.string() + "' && " + before + " '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
+    const std::string command = "cd '" + directory().string() + "' && " + before + " '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
                                 " >.stdout 2>.stderr </dev/null";
     const int status = std::system(command.c_str());
     Outcome o;
@@ -65,7 +55,7 @@ class Workshop {
     const pid_t child = fork();
     if (child == 0) {
       const std::string command =
-          "cd '" + directory_.string() + "' && exec '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments + " >/dev/null 2>&1";
+          "cd '" + directory().string() + "' && exec '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments + " >/dev/null 2>&1";
       execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
@@ -81,12 +71,12 @@ class Workshop {
   /// Names of everything in the directory.
   std::set<std::string> files() const {
     std::set<std::string> names;
-    for (const auto& e : std::filesystem::recursive_directory_iterator(directory_)) names.insert(e.path().lexically_relative(directory_).string());
+    for (const auto& e : std::filesystem::recursive_directory_iterator(directory())) names.insert(e.path().lexically_relative(directory()).string());
     return names;
   }
 
  private:
-  std::filesystem::path directory_;
+  TemporaryDirectory directory_;
 };
 
 }  // namespace karcher::testing

@@ -12,7 +12,7 @@
 #include "karcher/manifold/spd.hpp"
 #include "karcher/manifold/sphere.hpp"
 #include "karcher/manifold/unitary.hpp"
-#include "karcher/testing/derivative_checks.hpp"
+#include "karcher/testing/energy_laws.hpp"
 
 namespace karcher {
 namespace {
@@ -243,27 +243,6 @@ TEST(DeadLoadTerm, AgreesWithAdolCInTheVolumeAndOnABoundary) {
 
 namespace {
 
-/// E along retract(u, t v) for a random v: slopes of Taylor's remainders.
-TaylorSlopes slopes_of(const MapProblem& p, std::uint64_t seed) {
-  const Dense k(p);
-  Random random(seed);
-  std::vector<double> v;
-  for (std::size_t i = 0; i < p.dofs(); ++i) v.push_back(random.uniform(-1, 1));
-  double first = 0, second = 0;
-  for (std::size_t r = 0; r < v.size(); ++r) {
-    first += k.gradient[r] * v[r];
-    for (std::size_t c = 0; c < v.size(); ++c) second += v[r] * k.hessian[r][c] * v[c];
-  }
-  const auto along = [&](double t) {
-    std::vector<double> step = v;
-    for (double& x : step) x *= t;
-    Configuration moved = p.u;
-    p.layout->retract(p.u, step, moved);
-    return p.functional->energy(moved).energy;
-  };
-  return taylor_slopes(along, k.evaluation.energy, first, second);
-}
-
 template <class M>
 MapProblem harmonic_problem(std::shared_ptr<const Mesh> mesh, Rule rule, int order, double spread) {
   MapProblem p(std::move(mesh), manifold_ops<M>(), rule, order);
@@ -277,7 +256,7 @@ MapProblem harmonic_problem(std::shared_ptr<const Mesh> mesh, Rule rule, int ord
 template <class M>
 void expect_taylor_slopes(Rule rule) {
   const MapProblem p = harmonic_problem<M>(cells_of(CellKind::triangle), rule, 2, 0.3);
-  const TaylorSlopes s = slopes_of(p, 1);
+  const TaylorSlopes s = taylor_slopes(*p.functional, p.u);
   EXPECT_TRUE(s.hessian_holds()) << M::name << ": " << s.sentence();
 }
 

@@ -9,10 +9,10 @@
 #include <limits>
 #include <random>
 
-#include "io/temporary_directory.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/mesh/generators.hpp"
+#include "temporary_directory.hpp"
 
 namespace karcher {
 namespace {

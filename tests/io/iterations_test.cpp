@@ -9,10 +9,10 @@
 #include <fstream>
 #include <limits>
 
-#include "io/temporary_directory.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/summary.hpp"
+#include "temporary_directory.hpp"
 
 namespace karcher {
 namespace {

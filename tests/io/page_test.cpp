@@ -12,17 +12,21 @@
 #include <numeric>
 #include <set>
 
+#include "io/fields.hpp"
 #include "io/page_data.hpp"
 #include "io/page_shape.hpp"
 #include "io/page_store.hpp"
-#include "io/temporary_directory.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/view.hpp"
-#include "karcher/mesh/generators.hpp"
+#include "temporary_directory.hpp"
 
 namespace karcher {
 namespace {
+
+using testing::field_on;
+using testing::generated;
+using testing::nodal;
 
 using nlohmann::json;
 
@@ -98,25 +102,6 @@ ReadPage read_page(const std::filesystem::path& directory) {
   ReadPage page = unpacked(html.substr(a, html.find('<', a) - a));
   page.html = std::move(html);
   return page;
-}
-
-std::shared_ptr<const Mesh> generated(const std::string& name, std::map<std::string, std::vector<double>> numbers,
-                                      std::map<std::string, std::string> words = {}) {
-  return std::make_shared<const Mesh>(generate({name, std::move(numbers), std::move(words)}));
-}
-
-Field field_on(const std::shared_ptr<const Mesh>& mesh, const Region& region, const std::string& name, const std::string& manifold, int order) {
-  return {name, &manifold_by_name(manifold), Rule::projection, std::make_shared<const Space>(mesh, region, order)};
-}
-
-template <class F>
-std::vector<double> nodal(const Field& field, F f) {
-  std::vector<double> values;
-  for (int n = 0; n < field.space->node_count(); ++n) {
-    const std::vector<double> v = f(field.space->position(n));
-    values.insert(values.end(), v.begin(), v.end());
-  }
-  return values;
 }
 
 std::vector<double> identity(const Vec3<double>& x) { return {x[0], x[1], x[2]}; }

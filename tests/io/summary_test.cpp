@@ -13,9 +13,9 @@
 #include <random>
 #include <thread>
 
-#include "io/temporary_directory.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "temporary_directory.hpp"
 
 namespace karcher {
 namespace {

@@ -10,10 +10,10 @@
 #include <random>
 
 #include "io/judge.hpp"
-#include "io/temporary_directory.hpp"
 #include "karcher/error.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/quadrature.hpp"
+#include "temporary_directory.hpp"
 
 namespace karcher {
 namespace {

@@ -18,7 +18,7 @@
 
 #include <vector>
 
-#include "karcher/interpolation/interpolation.hpp"
+#include "karcher/interpolation/implicit_mean.hpp"
 #include "karcher/math/functions.hpp"
 
 namespace karcher {
@@ -68,13 +68,7 @@ class UnitVectorMean {
     start_ = nodes_[0];
     const std::vector<double> equal(n, 1.0 / count);
     MaskOf<T> ok = find(equal.data(), start_);
-    if constexpr (Potential::is_geodesic) {
-      constexpr double limit = 0.5 * M::injectivity_radius;
-      for (std::size_t i = 0; i < n; ++i) {
-        const auto a = M::log(start_, nodes_[i]);
-        ok = ok & (M::inner(start_, a, a) < T(limit * limit * (1 - 1e-10)));
-      }
-    }
+    if constexpr (Potential::is_geodesic) ok = ok & implicit_mean::close_to<M>(start_, nodes_.data(), count);
     return ok;
   }
 
@@ -224,26 +218,16 @@ MaskOf<T> UnitVectorMean<M, Potential, D, T>::find(const double* l, Point<M, T>&
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     look_from(q);
     Matrix g;
-    Mat<T, k, 1> step;
+    Mat<T, k, 1> residual;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       if (l[i] == 0) continue;
       const auto phi = Potential::template derivatives<2>(c_[i]);
       subtract_second(g, T(l[i]), phi, i);
       const T s = l[i] * phi[0];
-      for (int c = 0; c < k; ++c) step(c, 0) += s * b_[i][c];
+      for (int c = 0; c < k; ++c) residual(c, 0) += s * b_[i][c];
     }
-    const Mat<T, k, 1> residual = step;
-    const MaskOf<T> regular = solve_in_place(g, step);
-    // Away from a maximiser (or far from the solution) a plain gradient step, of length at most 1, leads back into the region of Newton's method.
-    const T residual2 = norm2(residual), newton2 = norm2(step);
-    const MaskOf<T> trust = regular & (newton2 < T(1.0));
-    const T shorten = T(1.0) / sqrt(max(T(1.0), residual2));
-    Vector w;
-    for (int c = 0; c < k; ++c) w[c] = select(done, T(0.0), select(trust, step(c, 0), shorten * residual(c, 0)));
-    q += unit_frame_ * w;
+    q += unit_frame_ * implicit_mean::newton_step(g, residual, 1e-17, done);
     q = (T(1.0) / sqrt(norm2(q))) * q;
-    // Newton's convergence is quadratic: a step of 1e-8 ends at rounding level.
-    done = done | (regular & (newton2 < T(1e-17)));
     if (all(done)) break;
   }
   return done;
@@ -282,13 +266,7 @@ void UnitVectorMean<M, Potential, D, T>::linearize(const Point<M, T>*, std::vect
   }
   inverse_ = identity<T, k>();
   solve_in_place(g, inverse_);
-  for (std::size_t i = 0; i < count; ++i) {
-    variation_[i][0] = inverse_ * variation_[i][0];
-    for (std::size_t a = 0; a < D; ++a) variation_[i][1 + a] = inverse_ * (variation_[i][1 + a] + u_[a] * variation_[i][0]);
-    for (int b = 0; b < 1 + D; ++b)
-      for (int r = 0; r < k; ++r)
-        for (int c = 0; c < k; ++c) maps[i](b * k + r, c) = variation_[i][static_cast<std::size_t>(b)](r, c);
-  }
+  implicit_mean::solve_variations(inverse_, u_, variation_, maps);
 }
 
 template <class M, class Potential, int D, class T>
@@ -356,18 +334,7 @@ void UnitVectorMean<M, Potential, D, T>::add_second_variation(const Point<M, T>*
     add_identity(vv, vv_one);
     blocks[i * count + i] += vv;
   }
-  // H_ij as in weighted_mean.hpp
-  for (std::size_t i = 0; i < count; ++i) {
-    wv_[i] += T(0.5) * (sum_ww * variation_[i][0]);
-    for (std::size_t a = 0; a < D; ++a) mixed_[i][a] += sum_n[a] * variation_[i][0];
-  }
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i; j < count; ++j) {
-      Matrix& h = blocks[i * count + j];
-      h += transpose_times(variation_[i][0], wv_[j]) + transpose_times(wv_[i], variation_[j][0]);
-      for (std::size_t a = 0; a < D; ++a)
-        h += transpose_times(variation_[i][1 + a], mixed_[j][a]) + transpose_times(mixed_[i][a], variation_[j][1 + a]);
-    }
+  implicit_mean::add_products(sum_ww, sum_n, variation_, wv_, mixed_, blocks);
 }
 
 }  // namespace karcher

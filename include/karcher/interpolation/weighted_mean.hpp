@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "karcher/interpolation/interpolation.hpp"
+#include "karcher/interpolation/implicit_mean.hpp"
 
 namespace karcher {
 
@@ -83,21 +83,13 @@ class WeightedMean {
   static constexpr int k = M::dim, N = M::ambient, L = local_dim<M, D>;
 
   /// Once per cell, before evaluate(): starts the iterations and tests that the nodal values are close enough for a unique mean. Lanes where they are not are
-  /// false. Geodesic rule: all values must lie in the ball of half the injectivity radius around their plain mean (Afsari 2011: the mean with positive
-  /// weights is then unique); two values need only be closer than the injectivity radius, which is the same.
+  /// false. Geodesic rule: all values must lie in the ball of half the injectivity radius around their plain mean; two values need only be closer than the
+  /// injectivity radius, which is the same.
   MaskOf<T> begin_cell(const Point<M, T>* nodes, int count) {
     start_ = nodes[0];
     const std::vector<double> equal(static_cast<std::size_t>(count), 1.0 / count);
     MaskOf<T> ok = find(nodes, count, equal.data(), start_);
-    if constexpr (TwoPoint::is_geodesic) {
-      if (M::injectivity_radius < std::numeric_limits<double>::max()) {
-        const double limit = 0.5 * M::injectivity_radius;
-        for (int i = 0; i < count; ++i) {
-          const auto a = M::log(start_, nodes[i]);
-          ok = ok & (M::inner(start_, a, a) < T(limit * limit * (1 - 1e-10)));
-        }
-      }
-    }
+    if constexpr (TwoPoint::is_geodesic) ok = ok & implicit_mean::close_to<M>(start_, nodes, count);
     return ok;
   }
 
@@ -170,35 +162,23 @@ class WeightedMean {
 template <class M, class TwoPoint, int D, class T>
 MaskOf<T> WeightedMean<M, TwoPoint, D, T>::find(const Point<M, T>* nodes, int count, const double* l, Point<M, T>& q) {
   constexpr int max_iterations = 40;
-  const MaskOf<T> yes = T(0.0) < T(1.0);
-  MaskOf<T> regular = yes, done = T(1.0) < T(0.0);
+  MaskOf<T> done = T(1.0) < T(0.0);
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     q_ = q;
     frame_ = M::frame(q);
     Mat<T, k, k> g;
-    Mat<T, k, 1> step;
+    Mat<T, k, 1> residual;
     const auto moved = around();
     for (int i = 0; i < count; ++i) {
       if (l[i] == 0) continue;
       const auto theta = moved.theta(nodes[i]);
       for (int c = 0; c < k; ++c) {
-        step(c, 0) += T(l[i]) * theta[c].v;
+        residual(c, 0) += T(l[i]) * theta[c].v;
         for (int e = 0; e < k; ++e) g(c, e) -= T(l[i]) * theta[c].d[static_cast<std::size_t>(e)];
       }
     }
-    const Mat<T, k, 1> residual = step;
-    regular = solve_in_place(g, step);
-    // Away from a minimiser (or far from the solution) a plain gradient step, of length at most 1, leads back into the region of Newton's method.
-    const T residual2 = norm2(residual);
-    const T newton2 = norm2(step);
-    const MaskOf<T> trust = regular & (newton2 < T(1.0));
-    const T shorten = T(1.0) / sqrt(max(T(1.0), residual2));
-    Vec<T, k> w;
-    for (int c = 0; c < k; ++c) w[c] = select(done, T(0.0), select(trust, step(c, 0), shorten * residual(c, 0)));
-    q = M::exp(q, frame_ * w);
-    // The step that was just made from a residual of 1e-8 ends at rounding level: Newton's convergence is quadratic.
-    done = done | (regular & (newton2 < T(1e-18)));
-    if (all(done)) return done;
+    q = M::exp(q, frame_ * implicit_mean::newton_step(g, residual, 1e-18, done));
+    if (all(done)) break;
   }
   return done;
 }
@@ -235,13 +215,7 @@ void WeightedMean<M, TwoPoint, D, T>::linearize(const Point<M, T>* nodes, std::v
   }
   inverse_ = identity<T, k>();
   solve_in_place(g, inverse_);
-  for (std::size_t i = 0; i < count; ++i) {
-    variation_[i][0] = inverse_ * variation_[i][0];
-    for (std::size_t a = 0; a < D; ++a) variation_[i][1 + a] = inverse_ * (variation_[i][1 + a] + u_[a] * variation_[i][0]);
-    for (int b = 0; b < 1 + D; ++b)
-      for (int c = 0; c < k; ++c)
-        for (int e = 0; e < k; ++e) maps[i](b * k + c, e) = variation_[i][static_cast<std::size_t>(b)](c, e);
-  }
+  implicit_mean::solve_variations(inverse_, u_, variation_, maps);
 }
 
 template <class M, class TwoPoint, int D, class T>
@@ -317,17 +291,7 @@ void WeightedMean<M, TwoPoint, D, T>::add_second_variation(const Point<M, T>* no
         }
       }
   }
-  // H_ij = w_i^T (1/2 S w_j + B_j) + (1/2 S w_i + B_i)^T w_j + sum_a k_{a,i}^T C_{a,j} + C_{a,i}^T k_{a,j}, C_{a,i} = N_a w_i + P_{a,i}
-  for (std::size_t i = 0; i < count; ++i) {
-    wv[i] += 0.5 * (sum_ww * variation_[i][0]);
-    for (std::size_t a = 0; a < D; ++a) c_ai[i][a] += sum_n[a] * variation_[i][0];
-  }
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i; j < count; ++j) {
-      Mat<T, k, k>& h = blocks[i * count + j];
-      h += transpose_times(variation_[i][0], wv[j]) + transpose_times(wv[i], variation_[j][0]);
-      for (std::size_t a = 0; a < D; ++a) h += transpose_times(variation_[i][1 + a], c_ai[j][a]) + transpose_times(c_ai[i][a], variation_[j][1 + a]);
-    }
+  implicit_mean::add_products(sum_ww, sum_n, variation_, wv, c_ai, blocks);
 }
 
 }  // namespace karcher

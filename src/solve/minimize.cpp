@@ -10,6 +10,7 @@
 #include "karcher/solve/norm.hpp"
 #include "solve/evaluator.hpp"
 #include "solve/model.hpp"
+#include "solve/seed.hpp"
 #include "solve/stopwatch.hpp"
 
 namespace karcher {
@@ -117,6 +118,7 @@ struct Minimizer::State {
   Exchange exchange;
   std::vector<char> fixed;
   std::vector<double> mass;
+  std::vector<std::uint64_t> numbers;
   WorkCounts work;
   PhaseSeconds phases;
   Evaluator evaluator;
@@ -141,6 +143,7 @@ struct Minimizer::State {
         exchange(layout),
         fixed(fixed_flags(layout)),
         mass(step_mass(layout)),
+        numbers(seed_numbers(layout)),
         evaluator(functional, exchange, fixed, mass, work, phases),
         h(functional.make_matrix()) {}
 
@@ -207,7 +210,7 @@ bool Minimizer::State::factor_at_current() {
   if (!ldlt) {
     Stopwatch watch(phases.factorisation);
     ldlt = std::make_unique<Ldlt>(exchange, h, fixed);
-    model = std::make_unique<TrustRegionModel>(exchange, *ldlt, fixed, mass, work, phases);
+    model = std::make_unique<TrustRegionModel>(exchange, *ldlt, fixed, mass, numbers, work, phases);
   }
   model->set(h, current.g, shift_hint);
   factored_at.values = current.u.values;

@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
+#include "solve/seed.hpp"
 #include "solve/stopwatch.hpp"
 
 namespace karcher {
 namespace {
-
-/// Entries in [-1, 1] that depend on the global number alone (splitmix64), so that they are the same on any number of ranks.
-double pseudo_random(std::uint64_t n) {
-  n += 0x9e3779b97f4a7c15ULL;
-  n = (n ^ (n >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  n = (n ^ (n >> 27)) * 0x94d049bb133111ebULL;
-  n ^= n >> 31;
-  return static_cast<double>(n >> 11) * 0x1.0p-52 - 1.0;
-}
 
 template <std::size_t size>
 void multiply_rows(const BlockMatrix& h, const double* x, double* y) {
@@ -44,6 +35,9 @@ void multiply_rows(const BlockMatrix& h, const double* x, double* y) {
 
 constexpr int longest_basis = 60;
 constexpr int few = 3;  // missing directions that are worth a search
+/// Of a residual, and of a vector after orthogonalisation, smaller parts than these are on their way to rounding. Taken as new directions they would let rounding
+/// decide which way a structure buckles, which then differs from one number of ranks to another.
+constexpr double smallest_residual = 1e-8, smallest_rest = 1e-5;
 
 }  // namespace
 
@@ -74,8 +68,8 @@ void multiply(const Exchange& exchange, const BlockMatrix& h, std::span<const ch
 }
 
 TrustRegionModel::TrustRegionModel(const Exchange& exchange, Ldlt& ldlt, const std::vector<char>& fixed, const std::vector<double>& mass,
-                                   WorkCounts& work, PhaseSeconds& phases)
-    : exchange_(exchange), ldlt_(ldlt), fixed_(fixed), mass_(mass), work_(work), phases_(phases) {}
+                                   const std::vector<std::uint64_t>& numbers, WorkCounts& work, PhaseSeconds& phases)
+    : exchange_(exchange), ldlt_(ldlt), fixed_(fixed), mass_(mass), numbers_(numbers), work_(work), phases_(phases) {}
 
 void TrustRegionModel::set(const BlockMatrix& h, std::span<const double> g, double shift) {
   h_ = &h;
@@ -83,7 +77,9 @@ void TrustRegionModel::set(const BlockMatrix& h, std::span<const double> g, doub
   h_basis_.clear();
   projected_h_.clear();
   eigen_ = {};
-  searched_ = false;
+  counts_.clear();
+  seed_ = 0;
+  probe_ = -1;
   refactor(shift);
   set_gradient(g);
 }
@@ -102,6 +98,8 @@ void TrustRegionModel::refactor(double shift) {
   ++work_.factorisations;
   shift_ = shift;
   inertia_ = ldlt_.factor(*h_, shift, mass_);
+  counts_[shift] = inertia_.negative;
+  searched_ = false;
 }
 
 void TrustRegionModel::solve(std::span<const double> b, std::span<double> x) {
@@ -138,7 +136,7 @@ bool TrustRegionModel::expand(std::vector<double> w) {
     const std::vector<double> products = against_basis(mw);
     for (std::size_t i = 0; i < basis_.size(); ++i)
       for (std::size_t d = 0; d < n; ++d) w[d] -= products[i] * basis_[i][d];
-    if (weigh() < 1e-11 * before) return false;
+    if (weigh() < smallest_rest * before) return false;
   }
   const double size = weigh();
   for (double& x : w) x /= size;
@@ -200,10 +198,12 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, const Effort& effor
       solve(g_, w);
       expand(w);
     }
-    if (basis_.empty()) find_negative_directions();
+    // A symmetric gradient leads to symmetric directions alone.
+    if (negative_in_basis() < inertia_.negative) probe();
   }
   DenseStep best;
   int expansions = 0, refactored = 0, small_gains = 0;
+  bool dry = false;  // the last expansion added nothing
   for (double last = 0;; last = best.decrease) {
     best = solve_in_basis(radius, effort.across);
     if (basis_.empty() || static_cast<int>(basis_.size()) >= longest_basis) break;
@@ -219,17 +219,20 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, const Effort& effor
     const double residual = std::sqrt(exchange_.sum(square));
     small_gains = expansions > 0 && best.decrease - last <= effort.accuracy * best.decrease ? small_gains + 1 : 0;
 
-    const int missing = inertia_.negative - negative_in_basis();
-    if (residual <= 1e-10 * dual_norm_ && missing <= 0) break;
-    const bool stuck = small_gains >= 2 || residual <= 1e-10 * dual_norm_;
+    const int missing = missing_directions(best.multiplier);
+    const bool solved = residual <= smallest_residual * dual_norm_;
+    if (solved && missing <= 0) break;
+    const bool stuck = small_gains >= 2 || solved || dry;
     if (stuck && missing <= 0 && residual <= 0.1 * dual_norm_) break;
-    if (stuck && missing > 0 && !searched_ && (missing <= few || missing == inertia_.negative)) {
+    if (stuck && missing > 0 && !searched_ && (missing <= few || inertia_.negative == 0)) {
       find_negative_directions();
       small_gains = 0;
+      dry = false;
       continue;
     }
     if (stuck || expansions == effort.expansions) {
-      if (refactored == effort.refactorisations) break;
+      // A positive definite F tells no more when it has been searched, and larger shifts even less.
+      if (refactored == effort.refactorisations || (missing > 0 && inertia_.negative == 0)) break;
       // At lambda the expansion converges fast, and directions of negative curvature that are missing are the first to appear. Where none is known, the
       // shift grows until their number falls.
       if (missing <= 0)
@@ -241,8 +244,12 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, const Effort& effor
       ++refactored;
       expansions = small_gains = 0;
     }
-    solve(r, w);
-    if (!expand(w)) break;
+    if (solved) {
+      dry = !probe();
+    } else {
+      solve(r, w);
+      dry = !expand(w);
+    }
     ++expansions;
   }
   return step_of(best);
@@ -265,25 +272,41 @@ TrustRegionModel::Step TrustRegionModel::step_of(DenseStep dense) const {
   return result;
 }
 
-int TrustRegionModel::negative_in_basis() const {
-  return static_cast<int>(std::count_if(eigen_.values.begin(), eigen_.values.end(), [&](double e) { return e + shift_ < 0; }));
+int TrustRegionModel::negative_in_basis(double shift) const {
+  return static_cast<int>(std::count_if(eigen_.values.begin(), eigen_.values.end(), [&](double e) { return e + shift < 0; }));
+}
+
+int TrustRegionModel::missing_directions(double lambda) const {
+  const auto above = counts_.upper_bound(lambda);
+  if (above == counts_.begin()) return 0;
+  const auto [shift, count] = *std::prev(above);
+  return count - negative_in_basis(shift);
 }
 
 void TrustRegionModel::find_negative_directions() {
   searched_ = true;
-  if (negative_in_basis() >= inertia_.negative) return;
-  std::vector<double> w(g_.size()), mv(g_.size());
-  const std::size_t first = static_cast<std::size_t>(exchange_.block_size());
-  for (std::size_t d = 0; d < w.size(); ++d) {
-    const auto global = static_cast<std::uint64_t>(exchange_.local_to_global()[d / first]) * first + d % first;
-    mv[d] = fixed_[d] ? 0 : mass_[d] * pseudo_random(global);
-  }
   const int limit = std::min(6 + 2 * inertia_.negative, 16);
+  double lowest = eigen_.values.empty() ? 0 : std::min(0.0, eigen_.values.front());
   for (int k = 0; k < limit && static_cast<int>(basis_.size()) < longest_basis; ++k) {
-    solve(mv, w);
-    if (!expand(w) || negative_in_basis() >= inertia_.negative) return;
-    for (std::size_t d = 0; d < w.size(); ++d) mv[d] = mass_[d] * basis_.back()[d];
+    probe();
+    if (basis_.empty()) return;
+    const bool settled = eigen_.values.front() > 1.1 * lowest;
+    if (negative_in_basis() >= inertia_.negative && settled) return;
+    lowest = std::min(lowest, eigen_.values.front());
   }
+}
+
+bool TrustRegionModel::probe() {
+  std::vector<double> w(g_.size());
+  for (std::size_t d = 0; d < w.size(); ++d) {
+    const double from = probe_ >= 0 ? basis_[static_cast<std::size_t>(probe_)][d] : seed_entry(seed_, numbers_[d]);
+    w[d] = fixed_[d] ? 0 : mass_[d] * from;
+  }
+  solve(w, w);
+  const bool expanded = expand(std::move(w));
+  if (!expanded) ++seed_;
+  probe_ = expanded ? static_cast<int>(basis_.size()) - 1 : -1;
+  return expanded;
 }
 
 std::vector<double> TrustRegionModel::lowest_direction() const {

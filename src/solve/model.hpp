@@ -5,11 +5,12 @@
 /// The solution is (H + lambda M) s = -g with H + lambda M positive semidefinite (More, Sorensen 1983). Factorisations are what a step costs, solves are cheap,
 /// so lambda is not searched by refactoring: from one factorisation F = H + shift M, indefinite or not, we build an M-orthonormal basis V of F^-1 g and of
 /// F^-1 r, r the residual of the best step in span V so far (a rational Krylov space, Davidson's expansion). In span V the problem is small and solved exactly,
-/// hard case included. Span V soon holds the low eigenvectors, also those of negative eigenvalues: where the inertia of F counts more of them than V has, a
-/// fixed pseudo-random vector starts the missing ones. Only if the basis grows long, F is made anew at the current lambda, which then converges like
+/// hard case included. Span V soon holds the low eigenvectors, also those of negative eigenvalues: where the inertia of F counts more of them than V has, inverse
+/// iteration from fixed vectors without symmetry adds the missing ones. Only if the basis grows long, F is made anew at the current lambda, which then converges like
 /// More and Sorensen's iteration, or faster. A smaller or larger radius needs the same basis, and mostly no solve at all.
 
-#include <optional>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -25,9 +26,9 @@ void multiply(const Exchange& exchange, const BlockMatrix& h, std::span<const ch
 
 class TrustRegionModel {
  public:
-  /// All references must outlive the model. work and phases are counted up.
-  TrustRegionModel(const Exchange& exchange, Ldlt& ldlt, const std::vector<char>& fixed, const std::vector<double>& mass, WorkCounts& work,
-                   PhaseSeconds& phases);
+  /// All references must outlive the model. numbers: of the local dofs (solve/seed.hpp). work and phases are counted up.
+  TrustRegionModel(const Exchange& exchange, Ldlt& ldlt, const std::vector<char>& fixed, const std::vector<double>& mass,
+                   const std::vector<std::uint64_t>& numbers, WorkCounts& work, PhaseSeconds& phases);
 
   /// A new point. h is kept by reference and must not change while the model is used; g by value (fixed entries 0). Factorises at `shift`.
   void set(const BlockMatrix& h, std::span<const double> g, double shift);
@@ -55,8 +56,8 @@ class TrustRegionModel {
   double shift() const { return shift_; }
   /// Inertia of H + shift() M.
   const Inertia& inertia() const { return inertia_; }
-  /// Number of negative eigenvalues known to be in the basis.
-  int negative_in_basis() const;
+  /// Number of negative eigenvalues of H + shift() M known to be in the basis.
+  int negative_in_basis() const { return negative_in_basis(shift_); }
   /// Extends the basis until it holds all negative directions that the inertia counts (or a bounded effort is spent).
   void find_negative_directions();
   /// Ritz values (ascending) and the vector of the lowest.
@@ -64,7 +65,12 @@ class TrustRegionModel {
   std::vector<double> lowest_direction() const;
 
  private:
+  int negative_in_basis(double shift) const;
+  /// Negative eigenvalues of H + lambda M that are not in the basis, as far as the factorisation at the largest shift <= lambda tells.
+  int missing_directions(double lambda) const;
   bool expand(std::vector<double> w);
+  /// One step of inverse iteration (Lanczos) from a seed; if it adds nothing (false), the next call begins with another seed.
+  bool probe();
   std::vector<double> projected_matrix() const;
   Step step_of(DenseStep dense) const;
   DenseStep solve_in_basis(double radius, std::span<const double> across) const;
@@ -76,17 +82,21 @@ class TrustRegionModel {
   Ldlt& ldlt_;
   const std::vector<char>& fixed_;
   const std::vector<double>& mass_;
+  const std::vector<std::uint64_t>& numbers_;
   WorkCounts& work_;
   PhaseSeconds& phases_;
   const BlockMatrix* h_ = nullptr;
   std::vector<double> g_;
   double shift_ = 0, dual_norm_ = 0;
   Inertia inertia_;
+  std::map<double, int> counts_;  ///< negative eigenvalues of H + shift M by shift
   std::vector<std::vector<double>> basis_, h_basis_;
   std::vector<double> projected_h_, projected_g_;  // V^T H V in packed growing storage: entry (i, j), i <= j at j (j + 1) / 2 + i
   Eigen eigen_;                                    ///< of V^T H V
   bool has_steepest_ = false;
-  bool searched_ = false;  ///< for negative directions that g does not lead to
+  bool searched_ = false;  ///< for negative directions that g does not lead to, with this factorisation
+  int seed_ = 0;           ///< of the current inverse iteration
+  int probe_ = -1;         ///< vector of the basis that its last step made; -1: none
 };
 
 }  // namespace karcher

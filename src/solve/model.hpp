@@ -58,7 +58,8 @@ class TrustRegionModel {
   const Inertia& inertia() const { return inertia_; }
   /// Number of negative eigenvalues of H + shift() M known to be in the basis.
   int negative_in_basis() const { return negative_in_basis(shift_); }
-  /// Extends the basis until it holds all negative directions that the inertia counts (or a bounded effort is spent).
+  /// Extends the basis until it holds all negative directions that the inertia counts and the lowest Ritz value changes by less than a tenth (or a bounded effort
+  /// is spent).
   void find_negative_directions();
   /// Ritz values (ascending) and the vector of the lowest.
   std::vector<double> ritz_values() const { return eigen_.values; }

@@ -44,7 +44,6 @@ class Exchange {
 
  private:
   void connect();
-  void to_owners(std::span<const double> v, std::vector<double>& received) const;
 
   int rank_ = 0, ranks_ = 1, block_size_ = 1, owned_begin_ = 0, owned_blocks_ = 0, global_blocks_ = 0;
   std::vector<int> local_to_global_, offsets_;

@@ -18,9 +18,10 @@ USES = {
     "mesh": ["math"],
     "field": ["mesh", "manifold"],
     "assembly": ["interpolation", "energy", "field"],
+    "catalogue": ["assembly"],
     "solve": ["assembly"],
     "io": ["solve"],
-    "app": ["io"],
+    "app": ["io", "catalogue"],
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 

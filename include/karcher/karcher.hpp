@@ -22,10 +22,10 @@
 #include <utility>
 #include <vector>
 
-#include "karcher/assembly/catalogue.hpp"
 #include "karcher/assembly/density_term.hpp"
 #include "karcher/assembly/functional.hpp"
 #include "karcher/assembly/with_rule.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/energy/harmonic.hpp"
 #include "karcher/error.hpp"
 #include "karcher/interpolation/evaluator.hpp"
@@ -118,32 +118,12 @@ GeometricFunction<M, D> GeometricSpace<M, D>::interpolate(F f) const {
 
 namespace front_detail {
 
-/// A density that knows its place: the coordinates are its parameters.
-template <class Density>
-struct PlacedDensity {
-  Density density;
-  template <class P>
-  struct At {
-    const Density& density;
-    Vec3<P> x;
-    template <class Jet>
-    auto operator()(const Jet& u) const {
-      return density(x, u);
-    }
-  };
-  template <class P>
-  At<P> at(std::span<const P> p) const {
-    return {density, {{p[0], p[1], p[2]}}};
-  }
-  std::vector<std::string> part_names() const { return {}; }
-};
-
 template <class Density, class M, int D>
 concept OfJets = requires(const Density& w, const FieldJet<M, D, Jet<double, 2>>& u) {
   { w(u) } -> std::convertible_to<Jet<double, 2>>;
 };
 template <class Density, class M, int D>
-concept OfPlacesAndJets = requires(const Density& w, const Vec3<double>& x, const FieldJet<M, D, Jet<double, 2>>& u) {
+concept OfPlacesAndJets = requires(const Density& w, const ReferencePoint<D, double>& x, const FieldJet<M, D, Jet<double, 2>>& u) {
   { w(x, u) } -> std::convertible_to<Jet<double, 2>>;
 };
 
@@ -173,7 +153,6 @@ class Energy {
       if (layout->cell_rank(cell) == layout->rank()) input.region.cells.push_back(cell);
     input.all_fields = {u.space().field()};
     input.fields = {0};
-    for (int c = 0; c < 3; ++c) input.parameters[fmt::format("x{}", c)].function = [c](const Vec3<double>& x, double) { return x[c]; };
     std::vector<std::unique_ptr<Term>> terms;
     for (const MakeTerm& make : terms_) terms.push_back(make(input));
     return Functional(layout, std::move(terms));
@@ -187,20 +166,15 @@ class Energy {
 /// The integral of a density (see the head of this file) over the domain of a space.
 template <class M, int D, class Density>
 Energy<M, D> integral(const GeometricSpace<M, D>& space, Density density) {
-  constexpr bool placed = front_detail::OfPlacesAndJets<Density, M, D>;
   static_assert(
-      placed || front_detail::OfJets<Density, M, D>,
+      front_detail::OfPlacesAndJets<Density, M, D> || front_detail::OfJets<Density, M, D>,
       "A density needs `template <class Jet> auto operator()(const Jet& u) const` (or `(const X& x, const Jet& u)`) that returns a number of the "
       "scalar type of u.value.");
   return {space, [density](TermInput input) {
             const Field& field = input.all_fields.front();
             return with_rule<M, D>(field, [&]<class Interpolation>() -> std::unique_ptr<Term> {
-              if constexpr (placed)
-                return std::make_unique<DensityTerm<front_detail::PlacedDensity<Density>, D, Interpolation>>(
-                    "integral", input, front_detail::PlacedDensity<Density>{density}, std::vector<std::string>{"x0", "x1", "x2"});
-              else
-                return std::make_unique<DensityTerm<FixedDensity<Density>, D, Interpolation>>("integral", input, FixedDensity<Density>{density},
-                                                                                              std::vector<std::string>{});
+              return std::make_unique<DensityTerm<FixedDensity<Density>, D, Interpolation>>(
+                  TermInfo{"integral", {}, {}, false, {}}, input, FixedDensity<Density>{density}, std::vector<std::string>{});
             });
           }};
 }

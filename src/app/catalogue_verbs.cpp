@@ -81,7 +81,8 @@ void doc_term(const EnergyInfo& info) {
   std::string dimensions;
   for (const int d : info.dimensions) dimensions += (dimensions.empty() ? "" : ", ") + std::to_string(d);
   fmt::print("\n  on          region of dimension {}\n", dimensions);
-  for (const FieldSlot& f : info.fields) fmt::print("  {:<11} field with values in {}: {}\n", f.key, join_names(f.manifolds, ", "), f.description);
+  for (const FieldSlot& f : info.fields)
+    fmt::print("  {:<11} field with values in {}: {}\n", f.key, join_names(f.manifold_names(), ", "), f.description);
   for (const Parameter& p : info.parameters) {
     std::string facts = p.unit;
     if (p.size > 1) facts += fmt::format(", {} numbers", p.size);

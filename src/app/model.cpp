@@ -60,7 +60,7 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.reference_position = reference_position(problem);
   input.reference_order = problem.reference.order;
   input.t = problem.continuation.from;
-  return at_place(spec.place, [&] { return make_term(spec.type, std::move(input)); });
+  return at_place(spec.place, [&] { return make_term(*spec.info, std::move(input)); });
 }
 
 void check_region_of_term(const TermSpec& spec, const Discretisation& d) {

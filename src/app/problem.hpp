@@ -13,7 +13,7 @@
 
 #include "app/expression.hpp"
 #include "app/point_value.hpp"
-#include "karcher/assembly/catalogue.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/field/field.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/solve/continuation.hpp"
@@ -55,7 +55,6 @@ struct FieldSpec {
 
 /// An energy or a load.
 struct TermSpec {
-  std::string type;  ///< as make_term takes it
   std::string path;  ///< "energies.0"
   Place place, on_place;
   const EnergyInfo* info = nullptr;

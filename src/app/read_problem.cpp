@@ -412,7 +412,7 @@ class Reader {
   bool is_deformation(int field) const {
     for (const TermSpec& t : problem_.terms)
       for (std::size_t k = 0; k < t.fields.size(); ++k)
-        if (t.fields[k] == field && t.info->fields[k].key == "deformation") return true;
+        if (t.fields[k] == field && t.info->fields[k].moves) return true;
     return false;
   }
 
@@ -432,7 +432,7 @@ bool DirichletSpec::uses_t() const {
 int Problem::deformation() const {
   for (const TermSpec& t : terms)
     for (std::size_t k = 0; k < t.fields.size(); ++k)
-      if (t.info->fields[k].key == "deformation") return t.fields[k];
+      if (t.info->fields[k].moves) return t.fields[k];
   return -1;
 }
 

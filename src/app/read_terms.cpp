@@ -73,9 +73,6 @@ void lame_of_young(Section& s, const Scope& scope, ParameterValues& parameters) 
   parameters["lambda"] = lambda;
 }
 
-/// "target" of a distance is a point of the field's manifold; other parameters of as many numbers as ambient coordinates are plain vectors.
-bool is_point(const Parameter& p) { return p.size == Parameter::ambient && p.name == "target"; }
-
 void point_parameter(Section& s, const Parameter& p, const ManifoldOps& m, const Scope& scope, ParameterValues& parameters) {
   const Value* v = s.raw(p.name);
   if (!v) s.missing(p.name);
@@ -94,7 +91,7 @@ void point_parameter(Section& s, const Parameter& p, const ManifoldOps& m, const
 
 void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const Problem& problem, ParameterValues& parameters) {
   const ManifoldOps& m = *problem.fields[static_cast<std::size_t>(spec.fields.front())].manifold;
-  if (is_point(p)) return point_parameter(s, p, m, problem.scope, parameters);
+  if (p.point) return point_parameter(s, p, m, problem.scope, parameters);
   const Place place = s.place(p.name);
   if (p.size == 1) {
     const Expression e = s.expression(p.name, problem.scope, p.default_value);
@@ -112,10 +109,10 @@ void read_fields(Section& s, const EnergyInfo& info, const Problem& problem, Ter
   for (const FieldSlot& slot : info.fields) {
     const std::string name = s.text(slot.key);
     const int index = field_index(problem, name, s.place(slot.key));
-    const std::string& manifold = problem.fields[static_cast<std::size_t>(index)].manifold->name;
-    if (!slot.manifolds.empty() && std::find(slot.manifolds.begin(), slot.manifolds.end(), manifold) == slot.manifolds.end())
+    const ManifoldOps& manifold = *problem.fields[static_cast<std::size_t>(index)].manifold;
+    if (!slot.accepts(manifold))
       refuse(s.place(slot.key), fmt::format("{} of {} takes a field with values in {}; \"{}\" has values in {}.", s.path(slot.key), info.type,
-                                            join_names(slot.manifolds, " or "), name, manifold));
+                                            join_names(slot.manifold_names(), " or "), name, manifold.name));
     for (std::size_t k = 0; k < spec.fields.size(); ++k)
       if (spec.fields[k] == index)
         refuse(s.place(slot.key), fmt::format("{}: the field \"{}\" is used twice, as {} and as {}.", s.path(), name, info.fields[k].key, slot.key));
@@ -155,7 +152,7 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     Section s(&table, path, table.place, term_keys(info));
 
     TermSpec spec;
-    spec.type = s.text("type") + (section == "loads" ? "-load" : "");
+    s.text("type");
     spec.path = path;
     spec.place = table.place;
     spec.info = &info;

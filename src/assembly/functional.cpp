@@ -155,6 +155,46 @@ Evaluation Functional::energy(const Configuration& u) const { return sum(u, Want
 Evaluation Functional::gradient(const Configuration& u, std::span<double> g) const { return sum(u, Want::gradient, g, nullptr); }
 Evaluation Functional::hessian(const Configuration& u, std::span<double> g, BlockMatrix& h) const { return sum(u, Want::hessian, g, &h); }
 
+EvaluationFailure Functional::failure(Trouble trouble, std::size_t term, int cell) const {
+  const Cell& entity = terms_[term]->cell(cell);
+  const Mesh& mesh = layout_->fields().front().space->mesh();
+  Vec3<double> centre;
+  for (const int v : vertices(entity)) centre += (1.0 / vertex_count(entity.kind)) * mesh.nodes[static_cast<std::size_t>(v)];
+  return {trouble, static_cast<int>(term), terms_[term]->name(), centre};
+}
+
+/// The first cell whose derivatives are not finite although its energy is; where none is, a sum of finite numbers has overflowed, and the term with the largest
+/// energy is blamed at its first cell.
+EvaluationFailure Functional::find_not_finite(const Configuration& u, Want want) const {
+  BatchResult out;
+  std::size_t largest = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    const Term& term = *terms_[k];
+    double energy = 0;
+    for (int b = 0; b < term.batch_count(); ++b) {
+      const Batch& batch = term.batch(b);
+      std::size_t n = 0;
+      for (const LocalBlock& block : *batch.blocks) n += static_cast<std::size_t>(block.dim);
+      out.gradient.assign(want == Want::energy ? 0 : n * W, 0.0);
+      out.hessian.assign(want == Want::hessian ? n * n * W : 0, 0.0);
+      term.evaluate(u, b, want, out);
+      for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.cells_used); ++lane) {
+        energy += std::abs(out.energy[lane]);
+        double zero = 0;  // x * 0 is 0 for finite x only
+        for (std::size_t i = lane; i < out.gradient.size(); i += W) zero += out.gradient[i] * 0;
+        for (std::size_t i = lane; i < out.hessian.size(); i += W) zero += out.hessian[i] * 0;
+        if (!(zero == 0)) return failure(Trouble::not_finite, k, batch.cells[lane]);
+      }
+    }
+    if (energy > most && term.batch_count() > 0) {
+      largest = k;
+      most = energy;
+    }
+  }
+  return failure(Trouble::not_finite, largest, terms_[largest]->batch(0).cells[0]);
+}
+
 Evaluation Functional::sum(const Configuration& u, Want want, std::span<double> g, BlockMatrix* h) const {
   std::fill(g.begin(), g.end(), 0.0);
   if (h) std::fill(h->values.begin(), h->values.end(), 0.0);
@@ -179,12 +219,7 @@ Evaluation Functional::sum(const Configuration& u, Want want, std::span<double> 
       for (std::size_t lane = 0; lane < used; ++lane) {
         if (out.trouble[lane] == Trouble::none && !std::isfinite(out.energy[lane])) out.trouble[lane] = Trouble::not_finite;
         if (out.trouble[lane] != Trouble::none) {
-          const Cell& cell = term.cell(batch.cells[lane]);
-          Vec3<double> centre;
-          for (int v = 0; v < vertex_count(cell.kind); ++v)
-            centre += (1.0 / vertex_count(cell.kind)) *
-                      layout_->fields().front().space->mesh().nodes[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(v)])];
-          result.failure = EvaluationFailure{out.trouble[lane], static_cast<int>(k), term.name(), centre};
+          result.failure = failure(out.trouble[lane], k, batch.cells[lane]);
           result.energy = std::numeric_limits<double>::infinity();
           return result;
         }
@@ -238,7 +273,7 @@ Evaluation Functional::sum(const Configuration& u, Want want, std::span<double> 
   if (h)
     for (double x : h->values) zero += x * 0;
   if (!(zero == 0) || !std::isfinite(result.energy)) {
-    result.failure = EvaluationFailure{Trouble::not_finite, 0, terms_.empty() ? "" : terms_.front()->name(), {}};
+    result.failure = find_not_finite(u, want);
     result.energy = std::numeric_limits<double>::infinity();
   }
   return result;

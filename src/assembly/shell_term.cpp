@@ -7,6 +7,8 @@
 
 #include "karcher/assembly/shell_kernel.hpp"
 #include "karcher/error.hpp"
+#include "karcher/manifold/euclidean.hpp"
+#include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 #include "karcher/mesh/surface_geometry.hpp"
@@ -96,8 +98,11 @@ bool semidefinite(const std::array<double, 10>& upper) {
 
 class ShellTerm final : public Term {
  public:
-  explicit ShellTerm(TermInput input)
-      : input_(std::move(input)), constants_(input_.parameters), reference_(*input_.mesh, input_.reference_position, input_.reference_order) {
+  ShellTerm(TermInfo info, TermInput input)
+      : info_(std::move(info)),
+        input_(std::move(input)),
+        constants_(input_.parameters),
+        reference_(*input_.mesh, input_.reference_position, input_.reference_order) {
     const auto choice = input_.choices.find("coupling");
     if (choice != input_.choices.end() && choice->second == "birsan-2021") coupling_ = ShellCoupling::birsan_2021;
     check_fields();
@@ -111,11 +116,7 @@ class ShellTerm final : public Term {
     apply_constants();
   }
 
-  const std::string& name() const override {
-    static const std::string type = "cosserat-shell";
-    return type;
-  }
-  std::vector<std::string> part_names() const override { return {"membrane", "bending", "curvature"}; }
+  const TermInfo& info() const override { return info_; }
   int batch_count() const override { return static_cast<int>(batches_.size()); }
   const Batch& batch(int b) const override { return batches_[static_cast<std::size_t>(b)]; }
   const Cell& cell(int cell) const override { return input_.region.cells[static_cast<std::size_t>(cell)]; }
@@ -149,17 +150,18 @@ class ShellTerm final : public Term {
 
  private:
   const Kind& kind(int b) const { return kinds_[kind_[static_cast<std::size_t>(b)]]; }
-  const Field& field(std::size_t slot) const { return input_.all_fields[static_cast<std::size_t>(input_.fields[slot])]; }
+  const Field& field(std::size_t slot) const { return input_.field(slot); }
 
   void check_fields() const {
     if (input_.region.dim != 2)
       throw InputError(
           fmt::format("A cosserat-shell lives on a surface, but region \"{}\" has dimension {}.", input_.region.name, input_.region.dim));
-    constexpr std::array<const char*, 2> slots{"deformation", "rotation"}, manifolds{"R3", "SO3"};
+    constexpr std::array<const char*, 2> slots{"deformation", "rotation"};
+    const std::array<const ManifoldOps*, 2> manifolds{&manifold_ops<Euclidean<3>>(), &manifold_ops<Rotation>()};
     for (std::size_t slot = 0; slot < 2; ++slot)
-      if (field(slot).manifold->name != manifolds[slot])
+      if (field(slot).manifold != manifolds[slot])
         throw InputError(fmt::format("cosserat-shell: the field \"{}\" given as {} has values in {}; it must have values in {}.", field(slot).name,
-                                     slots[slot], field(slot).manifold->name, manifolds[slot]));
+                                     slots[slot], field(slot).manifold->name, manifolds[slot]->name));
   }
 
   void add_kind(CellKind cell_kind) {
@@ -301,6 +303,7 @@ class ShellTerm final : public Term {
     k.kernels[static_cast<std::size_t>(want)](k.tables, points, m, q, out);
   }
 
+  TermInfo info_;
   TermInput input_;
   Constants constants_;
   ReferenceGeometry reference_;
@@ -321,6 +324,6 @@ int default_shell_degree(CellKind kind, int highest_order) {
   return highest_order == 2 ? 5 : 7;
 }
 
-std::unique_ptr<Term> make_shell_term(TermInput input) { return std::make_unique<ShellTerm>(std::move(input)); }
+std::unique_ptr<Term> make_shell_term(TermInfo info, TermInput input) { return std::make_unique<ShellTerm>(std::move(info), std::move(input)); }
 
 }  // namespace karcher

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "karcher/assembly/catalogue.hpp"
 #include "karcher/assembly/functional.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/testing/random.hpp"
 

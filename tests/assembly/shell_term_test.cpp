@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/energy/cosserat_shell.hpp"
 #include "karcher/error.hpp"
 #include "karcher/manifold/euclidean.hpp"
@@ -61,7 +62,7 @@ struct Shell {
     }
   }
   Term& make() {
-    term = make_shell_term(input);
+    term = make_term("cosserat-shell", input);
     return *term;
   }
   double number(const std::string& parameter) const { return input.parameters.at(parameter).constant; }

@@ -124,16 +124,5 @@ TEST(CosseratShell, TakesStrainsThatCarryDerivatives) {
   EXPECT_NEAR(w.hessian(0, 0) + 2 * w.hessian(0, 1) + w.hessian(1, 1), 2 * w.v, 1e-14 * w.v);
 }
 
-TEST(CosseratShell, AsksForEveryModulusAndKnowsBothCouplings) {
-  const EnergyInfo& info = cosserat_shell_info();
-  EXPECT_EQ(info.type, "cosserat-shell");
-  EXPECT_TRUE(info.lame);
-  ASSERT_EQ(info.fields.size(), 2u);
-  EXPECT_EQ(info.fields[0].key, "deformation");
-  EXPECT_EQ(info.fields[1].key, "rotation");
-  for (const Parameter& p : info.parameters) EXPECT_EQ(p.default_value.has_value(), p.name == "b") << p.name;
-  EXPECT_EQ(info.choices.at(0).values, (std::vector<std::string>{"default", "birsan-2021"}));
-}
-
 }  // namespace
 }  // namespace karcher

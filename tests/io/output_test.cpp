@@ -7,7 +7,7 @@
 
 #include "io/fields.hpp"
 #include "io/judge.hpp"
-#include "karcher/assembly/catalogue.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/io/vtu.hpp"
 #include "temporary_directory.hpp"
 

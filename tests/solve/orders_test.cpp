@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/map_error.hpp"
-#include "karcher/assembly/catalogue.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/manifold/sphere.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/partition.hpp"

@@ -7,8 +7,9 @@
 #include <map>
 #include <vector>
 
-#include "karcher/assembly/catalogue.hpp"
 #include "karcher/assembly/term.hpp"
+#include "karcher/assembly/term_input.hpp"
+#include "karcher/energy/reference_point.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 
@@ -37,15 +38,36 @@ struct BatchPoint {
   Vec3<NativeScalar> x;                                   ///< point of the mesh, also where the stress-free configuration is another
 };
 
+/// The stress-free configuration of a batch at a quadrature point, for the densities that ask for it (reference_point.hpp).
+struct BatchReference {
+  Vec3<NativeScalar> x, normal;
+  std::array<Vec3<NativeScalar>, 3> tangent{};
+  Mat<NativeScalar, 2, 2> b;
+};
+
 class CellBatches {
  public:
   /// \param default_degree  quadrature degree for a cell kind where the problem names none
-  CellBatches(const TermInput& input, const std::function<int(CellKind)>& default_degree);
+  /// \param with_reference  whether reference() will be asked for
+  CellBatches(const TermInput& input, const std::function<int(CellKind)>& default_degree, bool with_reference = false);
 
   int count() const { return static_cast<int>(batches_.size()); }
   const Batch& batch(int b) const { return batches_[static_cast<std::size_t>(b)]; }
   const KindData& kind(int b) const { return kinds_[static_cast<std::size_t>(kind_[static_cast<std::size_t>(b)])]; }
   const BatchPoint& point(int b, int q) const { return points_[first_point_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(q)]; }
+  template <int D>
+  ReferencePoint<D, NativeScalar> reference(int b, int q) const {
+    const BatchReference& from = references_[point_index(b, q)];
+    ReferencePoint<D, NativeScalar> s;
+    s.x = from.x;
+    for (std::size_t a = 0; a < D; ++a) s.tangent[a] = from.tangent[a];
+    if constexpr (D == 2) {
+      s.normal = from.normal;
+      s.b = from.b;
+      s.oriented = oriented_;
+    }
+    return s;
+  }
   std::size_t point_index(int b, int q) const { return first_point_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(q); }
   std::size_t point_count() const { return points_.size(); }
   const Cell& cell(int c) const { return region_.cells[static_cast<std::size_t>(c)]; }
@@ -57,6 +79,8 @@ class CellBatches {
   std::vector<int> kind_;
   std::vector<std::size_t> first_point_;
   std::vector<BatchPoint> points_;
+  std::vector<BatchReference> references_;  ///< as points_, or none
+  bool oriented_ = true;
 };
 
 }  // namespace karcher

@@ -2,11 +2,14 @@
 /// \file
 /// DensityTerm: the generic kernel. Any density of any fields, with exact gradient and Hessian (interpolation.hpp explains the seam).
 ///
-/// A model has
-///   at<P>(span<const P> parameters)   the density at a point, P double or Pack; its operator()(u...) takes one FieldJet per field and returns W, or
-///   parts(u...)                       returns std::array of the parts of W (then part_names() names them)
+/// A density is called with a jet for every field, operator()(u...), and returns W; or it has parts(u...), which returns a std::array of the parts of W. Where it takes
+/// one argument more, that is the reference configuration at the point (reference_point.hpp), before the fields: operator()(s, u...), parts(s, u...).
+/// quantities([s,] u...) may give other numbers at the point, as an array.
+/// A model has at<P>(span<const P> parameters), the density at a point, P double or a pack.
 /// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -20,21 +23,50 @@ namespace karcher {
 
 namespace density_detail {
 
-template <class Density, class... U>
-auto value(const Density& density, const U&... u) {
-  if constexpr (requires { density(u...); }) {
-    return density(u...);
+template <class Density, class S, class... U>
+concept Placed = requires(const Density& w, const S& s, const U&... u) {
+  w(s, u...);
+}
+|| requires(const Density& w, const S& s, const U&... u) { w.parts(s, u...); };
+
+/// The parts of W at a point; nothing if the density has none.
+template <class Density, class S, class... U>
+auto parts(const Density& w, const S& s, const U&... u) {
+  if constexpr (requires { w.parts(s, u...); })
+    return w.parts(s, u...);
+  else if constexpr (requires { w.parts(u...); })
+    return w.parts(u...);
+  else
+    return std::array<double, 0>{};
+}
+
+template <class Density, class S, class... U>
+auto quantities(const Density& w, const S& s, const U&... u) {
+  if constexpr (requires { w.quantities(s, u...); })
+    return w.quantities(s, u...);
+  else if constexpr (requires { w.quantities(u...); })
+    return w.quantities(u...);
+  else
+    return std::array<double, 0>{};
+}
+
+template <class Density, class S, class... U>
+auto value(const Density& w, const S& s, const U&... u) {
+  if constexpr (requires { w(s, u...); }) {
+    return w(s, u...);
+  } else if constexpr (requires { w(u...); }) {
+    return w(u...);
   } else {
-    const auto parts = density.parts(u...);
-    auto w = parts[0];
-    for (std::size_t i = 1; i < parts.size(); ++i) w += parts[i];
-    return w;
+    const auto all = parts(w, s, u...);
+    auto sum = all[0];
+    for (std::size_t i = 1; i < all.size(); ++i) sum += all[i];
+    return sum;
   }
 }
 
 }  // namespace density_detail
 
-/// A user's density without parameters that vary from point to point.
+/// A density without parameters that vary from point to point.
 template <class Density>
 struct FixedDensity {
   Density density;
@@ -42,7 +74,15 @@ struct FixedDensity {
   const Density& at(std::span<const P>) const {
     return density;
   }
-  std::vector<std::string> part_names() const { return {}; }
+};
+
+/// A density whose parameters are numbers of type P at every point: Density<P>::of(span<const P>).
+template <template <class> class Density>
+struct VaryingDensity {
+  template <class P>
+  Density<P> at(std::span<const P> p) const {
+    return Density<P>::of(p);
+  }
 };
 
 template <class Model, int D, class... Interpolation>
@@ -60,14 +100,21 @@ class DensityTerm : public Term {
     for (std::size_t i = 0; i < f; ++i) o += local[i];
     return o;
   }
+  using DensityAtPoint = std::decay_t<decltype(std::declval<const Model&>().template at<T>(std::span<const T>()))>;
+  using Reference = ReferencePoint<D, T>;
+  using Quantities = decltype(density_detail::quantities(std::declval<const DensityAtPoint&>(), std::declval<const Reference&>(),
+                                                         std::declval<const FieldJet<typename Interpolation::Manifold, D, T>&>()...));
+  static constexpr bool placed =
+      density_detail::Placed<DensityAtPoint, Reference, FieldJet<typename Interpolation::Manifold, D, T>...> || std::tuple_size_v<Quantities> != 0;
 
  public:
   /// \param parameter_keys  keys of input.parameters in the order in which Model::at expects them
-  DensityTerm(std::string name, TermInput input, Model model, std::vector<std::string> parameter_keys)
-      : name_(std::move(name)),
+  DensityTerm(TermInfo info, const TermInput& input, Model model, const std::vector<std::string>& parameter_keys)
+      : info_(std::move(info)),
         model_(std::move(model)),
         fields_(input.fields),
-        batches_(input, [&](CellKind kind) { return default_degree(input, kind); }) {
+        batches_(
+            input, [&](CellKind kind) { return default_degree(input, kind); }, placed) {
     for (const auto& key : parameter_keys) parameters_.push_back(input.parameters.at(key));
     values_.resize(batches_.point_count() * parameters_.size());
     compute_parameters(input.t, true);
@@ -81,8 +128,7 @@ class DensityTerm : public Term {
     return 2 * order + (dimension(kind) == 3 ? 1 : 4);
   }
 
-  const std::string& name() const override { return name_; }
-  std::vector<std::string> part_names() const override { return model_.part_names(); }
+  const TermInfo& info() const override { return info_; }
   int batch_count() const override { return batches_.count(); }
   const Batch& batch(int b) const override { return batches_.batch(b); }
   const Cell& cell(int c) const override { return batches_.cell(c); }
@@ -94,8 +140,23 @@ class DensityTerm : public Term {
 
   std::vector<std::array<double, native_width>> batch_part_energies(const Configuration& u, int b) const override {
     std::vector<std::array<double, native_width>> sums(part_names().size());
-    if (!sums.empty()) add_parts(u, b, sums, std::make_index_sequence<F>{});
+    if (!sums.empty())
+      add_up(
+          u, b, [](const auto& rho, const auto&... at) { return density_detail::parts(rho, at...); }, sums, std::make_index_sequence<F>{});
     return sums;
+  }
+
+  std::vector<std::array<double, native_width>> batch_quantities(const Configuration& u, int b) const override {
+    std::vector<std::array<double, native_width>> means(std::tuple_size_v<Quantities>);
+    if (means.empty()) return means;
+    const MaskOf<T> defined = add_up(
+        u, b, [](const auto& rho, const auto&... at) { return density_detail::quantities(rho, at...); }, means, std::make_index_sequence<F>{});
+    T measure = T(0.0);
+    for (int q = 0; q < batches_.kind(b).quadrature->size(); ++q) measure += batches_.point(b, q).weight;
+    const T scale = select(defined, T(1.0) / measure, T(std::numeric_limits<double>::quiet_NaN()));
+    for (auto& mean : means)
+      for (int lane = 0; lane < W; ++lane) mean[static_cast<std::size_t>(lane)] *= karcher::lane(scale, lane);
+    return means;
   }
 
  protected:
@@ -181,8 +242,14 @@ class DensityTerm : public Term {
 
   /// W as a function of the local coordinates of all fields.
   template <class S, class Density, std::size_t... f>
-  static S density_at(const Density& rho, const States& states, std::index_sequence<f...>) {
-    return density_detail::value(rho, jet_of<S, f>(states)...);
+  static S density_at(const Density& rho, const Reference& reference, const States& states, std::index_sequence<f...>) {
+    return density_detail::value(rho, reference, jet_of<S, f>(states)...);
+  }
+  Reference reference_at(int b, int q) const {
+    if constexpr (placed)
+      return batches_.template reference<D>(b, q);
+    else
+      return {};
   }
   template <class S, std::size_t f>
   static auto jet_of(const States& states) {
@@ -209,18 +276,19 @@ class DensityTerm : public Term {
       ((defined = defined & move_to<f>(b, q, states)), ...);
       const T weight = batches_.point(b, q).weight;
       const auto rho = density(b, q);
+      const Reference reference = reference_at(b, q);
       if (want == Want::energy) {
-        energy += weight * density_detail::value(rho, std::get<f>(states).interpolation.jet()...);
+        energy += weight * density_detail::value(rho, reference, std::get<f>(states).interpolation.jet()...);
         continue;
       }
       (std::get<f>(states).interpolation.linearize(std::get<f>(states).nodes.data(), std::get<f>(states).maps), ...);
       Vec<T, L> covector;
       if (want == Want::gradient) {
-        const auto w = density_at<Dual<T, L>>(rho, states, all);
+        const auto w = density_at<Dual<T, L>>(rho, reference, states, all);
         energy += weight * w.v;
         for (int i = 0; i < L; ++i) covector[i] = weight * w.d[static_cast<std::size_t>(i)];
       } else {
-        auto w = density_at<Jet<T, L>>(rho, states, all);
+        auto w = density_at<Jet<T, L>>(rho, reference, states, all);
         w.scale(weight);
         energy += w.v;
         for (int i = 0; i < L; ++i) covector[i] = w.gradient(i);
@@ -237,20 +305,21 @@ class DensityTerm : public Term {
     store(hessian, out.hessian);
   }
 
-  template <std::size_t... f>
-  void add_parts(const Configuration& u, int b, std::vector<std::array<double, native_width>>& sums, std::index_sequence<f...>) const {
-    using Rho = std::decay_t<decltype(density(0, 0))>;
-    if constexpr (requires(const Rho& rho) { rho.parts(FieldJet<M<f>, D, T>{}...); }) {
-      States states;
-      (gather<f>(u, b, states), ...);
-      for (int q = 0; q < batches_.kind(b).quadrature->size(); ++q) {
-        (move_to<f>(b, q, states), ...);
-        const auto parts = density(b, q).parts(std::get<f>(states).interpolation.jet()...);
-        const T weight = batches_.point(b, q).weight;
-        for (std::size_t p = 0; p < parts.size(); ++p)
-          for (int lane = 0; lane < W; ++lane) sums[p][static_cast<std::size_t>(lane)] += karcher::lane(weight * parts[p], lane);
-      }
+  /// Integrals over the cells of batch b of what numbers(density, reference, jets...) gives at a point, an array; lanes where everything is defined.
+  template <class Numbers, std::size_t... f>
+  MaskOf<T> add_up(const Configuration& u, int b, const Numbers& numbers, std::vector<std::array<double, native_width>>& sums,
+                   std::index_sequence<f...>) const {
+    States states;
+    MaskOf<T> defined = T(0.0) < T(1.0);
+    ((defined = defined & gather<f>(u, b, states)), ...);
+    for (int q = 0; q < batches_.kind(b).quadrature->size(); ++q) {
+      ((defined = defined & move_to<f>(b, q, states)), ...);
+      const auto all = numbers(density(b, q), reference_at(b, q), std::get<f>(states).interpolation.jet()...);
+      const T weight = batches_.point(b, q).weight;
+      for (std::size_t p = 0; p < std::min(all.size(), sums.size()); ++p)
+        for (int lane = 0; lane < W; ++lane) sums[p][static_cast<std::size_t>(lane)] += karcher::lane(weight * all[p], lane);
     }
+    return defined;
   }
 
  private:
@@ -336,7 +405,7 @@ class DensityTerm : public Term {
     for (std::size_t i = 0; i < from.size(); ++i) put(from[i], i, to);
   }
 
-  std::string name_;
+  TermInfo info_;
   Model model_;
   std::vector<int> fields_;
   CellBatches batches_;

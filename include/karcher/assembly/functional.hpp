@@ -48,6 +48,8 @@ class Functional {
  private:
   struct Scatter;  // per term and batch: where the blocks go
   Evaluation sum(const Configuration& u, Want want, std::span<double> g, BlockMatrix* h) const;
+  EvaluationFailure failure(Trouble trouble, std::size_t term, int cell) const;
+  EvaluationFailure find_not_finite(const Configuration& u, Want want) const;
 
   std::shared_ptr<const Layout> layout_;
   std::vector<std::unique_ptr<Term>> terms_;

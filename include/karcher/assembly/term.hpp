@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "karcher/energy/energy_info.hpp"
 #include "karcher/field/field.hpp"
 #include "karcher/math/aligned.hpp"
 #include "karcher/math/pack.hpp"
@@ -44,10 +45,10 @@ struct BatchResult {
 class Term {
  public:
   virtual ~Term() = default;
-  /// Key under "energies" in summary.json, e.g. "cosserat-shell", "volume-load".
-  virtual const std::string& name() const = 0;
+  virtual const TermInfo& info() const = 0;
+  const std::string& name() const { return info().name; }
   /// Parts that the density can tell apart (empty: none); same order as batch_part_energies().
-  virtual std::vector<std::string> part_names() const { return {}; }
+  const std::vector<std::string>& part_names() const { return info().parts; }
   virtual int batch_count() const = 0;
   virtual const Batch& batch(int b) const = 0;
   /// Energy of each cell of batch b, and gradient and Hessian when wanted. Thread of control returns normally in every case; trouble is reported by lane.
@@ -64,6 +65,9 @@ class Term {
     }
     return sums;
   }
+  /// Means over every cell of batch b (by reference measure) of info().quantities, component after component of one after the other; not a number where the
+  /// interpolation is not defined. Empty if there are none.
+  virtual std::vector<std::array<double, native_width>> batch_quantities(const Configuration& /*u*/, int /*b*/) const { return {}; }
   /// Called when the load parameter changes, before evaluations at the new value: data that depends on t is recomputed.
   virtual void set_load_parameter(double /*t*/) {}
   /// Sentences for the user about data that the term can work with but that is suspicious (empty: none).

@@ -2,10 +2,8 @@
 /// \file
 /// The curved six-parameter Cosserat shell with all terms up to h^5.
 ///
-/// Sources: Birsan, Ghiba, Martin, Neff, "Refined dimensional reduction for isotropic elastic Cosserat shells with initial curvature", Math. Mech.
-/// Solids 24
-/// (2019); Birsan, "Derivation of a refined six-parameter shell model", Math. Mech. Solids 26 (2021); Nebel, Sander, Birsan, Neff, CMAME 416 (2023)
-/// 116309.
+/// Sources: Birsan, Ghiba, Martin, Neff, "Refined dimensional reduction for isotropic elastic Cosserat shells with initial curvature", Math. Mech. Solids 24
+/// (2019); Birsan, "Derivation of a refined six-parameter shell model", Math. Mech. Solids 26 (2021); Nebel, Sander, Birsan, Neff, CMAME 416 (2023) 116309.
 ///
 ///   E = sum_a Q^T d_a m (x) a^a - a           K = sum_a axl(Q^T d_a Q) (x) a^a         a = sum_a a_a (x) a^a
 ///   b = - sum_a d_a n_0 (x) a^a               c = sqrt(det a_ab) (a^1 (x) a^2 - a^2 (x) a^1)
@@ -23,8 +21,11 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
-#include "karcher/energy/parameter.hpp"
+#include "karcher/energy/reference_point.hpp"
+#include "karcher/manifold/quaternion.hpp"
+#include "karcher/math/scalar.hpp"
 #include "karcher/math/tensor.hpp"
 
 namespace karcher {
@@ -113,8 +114,7 @@ struct ShellParts {
   bool membrane = true, bending = true, curvature = true;
 };
 
-/// W = 1/2 z^T C z in the orthonormal principal frame (t_1, t_2, n_0) of the reference surface. With E_cb, K_cb (component c, direction b) the matrix
-/// C falls
+/// W = 1/2 z^T C z in the orthonormal principal frame (t_1, t_2, n_0) of the reference surface. With E_cb, K_cb (component c, direction b) the matrix C falls
 /// into two 4 x 4 blocks and four numbers:
 ///   a: (E11, E22, K21, K12)      b: (E12, E21, K22, K11)      s: E31, E32, K31, K32
 /// Blocks are stored as the upper triangle by rows.
@@ -178,7 +178,36 @@ ShellForm<T> shell_form(const T& k1, const T& k2, const ShellMaterial<T>& materi
   return f;
 }
 
-/// Description for the catalogue: slots "deformation" and "rotation", parameters, choice "coupling" ("default" or "birsan-2021").
-const EnergyInfo& cosserat_shell_info();
+/// The same density of a deformation and a rotation field (unit quaternions), for the generic kernel: an independent way to what the closed-form kernel computes.
+/// Parameters: h, mu, lambda, mu_c, L_c, b1, b2, b3.
+template <class P>
+struct CosseratShell {
+  ShellMaterial<P> material;
+  ShellCoupling coupling = ShellCoupling::standard;
+  static CosseratShell of(std::span<const P> p) { return {{p[0], p[1], p[2], p[3], p[4], {p[5], p[6], p[7]}}}; }
+
+  /// membrane, bending, curvature
+  template <class R, class M, class Q>
+  auto parts(const R& r, const M& m, const Q& q) const {
+    using S = std::decay_t<decltype(m.value[0])>;
+    const Mat3<S> rotation = rotation_matrix(q.value);
+    Mat3<S> e, k;
+    Mat3<P> b;
+    for (std::size_t a = 0; a < 2; ++a) {
+      // Q^T d_a m - t_a, and axl(Q^T d_a Q) = 2 vec(conj(q) d_a q)
+      const Vec3<S> strain = transpose_times(rotation, m.d[a]);
+      const Quaternion<S> rate = quaternion_product(conjugate(q.value), q.d[a]);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          add_scaled(e(i, j), strain[i], r.tangent[a][j]);
+          e(i, j) -= S(r.tangent[a][i] * r.tangent[a][j]);
+          add_scaled(k(i, j), rate[i + 1], P(2.0) * r.tangent[a][j]);
+        }
+      for (std::size_t c = 0; c < 2; ++c) b += r.b(static_cast<int>(a), static_cast<int>(c)) * outer(r.tangent[a], r.tangent[c]);
+    }
+    const ShellEnergy<S> w = cosserat_shell_density(e, k, b, -hat(r.normal), r.normal, material, coupling);
+    return std::array<S, 3>{w.membrane, w.bending, w.curvature};
+  }
+};
 
 }  // namespace karcher

@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "karcher/energy/parameter.hpp"
 #include "karcher/manifold/manifold.hpp"
 
 namespace karcher {
@@ -12,6 +11,11 @@ namespace karcher {
 template <class M, class P>
 struct DeadLoad {
   Vec<P, M::ambient> f;
+  static DeadLoad of(std::span<const P> p) {
+    DeadLoad load;
+    for (int c = 0; c < M::ambient; ++c) load.f[c] = p[static_cast<std::size_t>(c)];
+    return load;
+  }
 
   template <class Jet>
   auto operator()(const Jet& u) const {
@@ -21,19 +25,10 @@ struct DeadLoad {
   }
 };
 
-/// Parameters: value[0], value[1], ... in ambient coordinates.
 template <class M>
-struct DeadLoadModel {
+struct DeadLoadOn {
   template <class P>
-  DeadLoad<M, P> at(std::span<const P> p) const {
-    DeadLoad<M, P> load;
-    for (int c = 0; c < M::ambient; ++c) load.f[c] = p[static_cast<std::size_t>(c)];
-    return load;
-  }
-  std::vector<std::string> part_names() const { return {}; }
+  using Density = DeadLoad<M, P>;
 };
-
-/// volume, traction, line and point loads; they differ in the dimension of the region.
-std::vector<EnergyInfo> dead_load_infos();
 
 }  // namespace karcher

@@ -5,7 +5,6 @@
 
 #include <span>
 
-#include "karcher/energy/parameter.hpp"
 #include "karcher/math/tensor.hpp"
 
 namespace karcher {
@@ -13,6 +12,7 @@ namespace karcher {
 template <class P>
 struct Harmonic {
   P scale;
+  static Harmonic of(std::span<const P> p) { return {p[0]}; }
 
   template <class Jet>
   auto operator()(const Jet& u) const {
@@ -20,15 +20,6 @@ struct Harmonic {
     for (std::size_t a = 1; a < u.d.size(); ++a) sum += 0.5 * Jet::Manifold::inner(u.value, u.d[a], u.d[a]);
     return sum * scale;
   }
-};
-
-struct HarmonicModel {
-  static EnergyInfo info();
-  template <class P>
-  Harmonic<P> at(std::span<const P> p) const {
-    return {p[0]};
-  }
-  std::vector<std::string> part_names() const { return {}; }
 };
 
 }  // namespace karcher

@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "karcher/energy/parameter.hpp"
 #include "karcher/manifold/manifold.hpp"
 
 namespace karcher {
@@ -13,6 +12,11 @@ template <class M, class P>
 struct L2Distance {
   P weight;
   Point<M, P> target;
+  static L2Distance of(std::span<const P> p) {
+    L2Distance w{p[0], {}};
+    for (int c = 0; c < M::ambient; ++c) w.target[c] = p[static_cast<std::size_t>(1 + c)];
+    return w;
+  }
 
   template <class Jet>
   auto operator()(const Jet& u) const {
@@ -22,18 +26,10 @@ struct L2Distance {
   }
 };
 
-EnergyInfo l2_distance_info();
-
-/// Parameters: weight, target[0], target[1], ... in ambient coordinates.
 template <class M>
-struct L2DistanceModel {
+struct L2DistanceTo {
   template <class P>
-  L2Distance<M, P> at(std::span<const P> p) const {
-    L2Distance<M, P> w{p[0], {}};
-    for (int c = 0; c < M::ambient; ++c) w.target[c] = p[static_cast<std::size_t>(1 + c)];
-    return w;
-  }
-  std::vector<std::string> part_names() const { return {}; }
+  using Density = L2Distance<M, P>;
 };
 
 }  // namespace karcher

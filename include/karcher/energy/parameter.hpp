@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// Parameters of energies: one table per energy that the problem-file reader, `karcher doc` and library users share.
+/// Parameters of energies: numbers of a problem, or functions of the place and the load parameter.
 
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "karcher/math/tensor.hpp"
 
@@ -24,6 +23,8 @@ struct ParameterValue {
   double operator()(const Vec3<double>& x, double t) const { return function ? function(x, t) : constant; }
 };
 
+using ParameterValues = std::map<std::string, ParameterValue>;
+
 /// Description of one parameter. A parameter with size > 1 is an array of numbers; keys in ParameterValues are then "b[0]", "b[1]", ...
 struct Parameter {
   std::string name;
@@ -33,33 +34,8 @@ struct Parameter {
   double minimum = -std::numeric_limits<double>::infinity();
   bool minimum_allowed = true;  ///< false: must be greater than minimum
   int size = 1;                 ///< Parameter::ambient: as many as the first field has ambient coordinates
+  bool point = false;           ///< the numbers are a point of the first field's manifold, written like an initial value
   static constexpr int ambient = -1;
 };
-
-/// A field that an energy uses, under the key of the problem file ("deformation", "rotation", "field", ...).
-struct FieldSlot {
-  std::string key;
-  std::vector<std::string> manifolds;  ///< accepted names
-  std::string description;
-};
-
-/// A choice between words ("coupling", "material", "volumetric").
-struct Choice {
-  std::string name;
-  std::vector<std::string> values;  ///< first: the default
-  std::string description;
-};
-
-struct EnergyInfo {
-  std::string type;             ///< "cosserat-shell"
-  std::string description;      ///< formula and source, a few lines
-  std::vector<int> dimensions;  ///< of the region: 1, 2, 3
-  std::vector<FieldSlot> fields;
-  std::vector<Parameter> parameters;
-  std::vector<Choice> choices;
-  bool lame = false;  ///< mu and lambda may be given as young and poisson instead (the reader converts)
-};
-
-using ParameterValues = std::map<std::string, ParameterValue>;
 
 }  // namespace karcher

@@ -136,6 +136,18 @@ template <class T>
 constexpr Vec<T, 3> cross(const Vec<T, 3>& a, const Vec<T, 3>& b) {
   return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }
+// Of a vector of plain numbers (the geometry of the domain) and one of scalars with derivatives, in either order: the result has the derivatives.
+template <class S, class T, int N>
+requires(!std::is_same_v<S, T>) constexpr auto dot(const Vec<S, N>& a, const Vec<T, N>& b) {
+  auto s = a[0] * b[0];
+  for (int i = 1; i < N; ++i) s += a[i] * b[i];
+  return s;
+}
+template <class S, class T>
+requires(!std::is_same_v<S, T>) constexpr auto cross(const Vec<S, 3>& a, const Vec<T, 3>& b) {
+  using R = decltype(a[0] * b[0]);
+  return Vec<R, 3>{{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
 template <class T, int M, int N>
 constexpr Vec<T, M> operator*(const Mat<T, M, N>& a, const Vec<T, N>& x) {
   Vec<T, M> y;

@@ -1,15 +1,11 @@
 #pragma once
-/// \file
-/// Catalogue: all energies and loads by name, and the terms made of them.
 
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "karcher/assembly/term.hpp"
 #include "karcher/energy/parameter.hpp"
 #include "karcher/field/field.hpp"
 
@@ -28,12 +24,8 @@ struct TermInput {
   std::function<Vec3<double>(const Vec3<double>&)> reference_position;
   int reference_order = 2;
   double t = 0;
-};
 
-const std::vector<EnergyInfo>& energy_catalogue();
-/// Loads have the same description; info.type is the `type` of the problem file ("volume"), the term's type has "-load" after it ("volume-load").
-const std::vector<EnergyInfo>& load_catalogue();
-/// \throws InputError with a full sentence if the combination makes no sense (manifold, dimension, thickness against curvature, non-finite data).
-std::unique_ptr<Term> make_term(const std::string& type, TermInput input);
+  const Field& field(std::size_t slot) const { return all_fields[static_cast<std::size_t>(fields[slot])]; }
+};
 
 }  // namespace karcher

@@ -13,12 +13,12 @@
 #include "karcher/energy/harmonic.hpp"
 #include "karcher/interpolation/sphere_projection.hpp"
 
-namespace karcher {
+namespace karcher::catalogue {
 
 template <class M, int D>
-class SphereHarmonicTerm : public DensityTerm<HarmonicModel, D, SphereProjection<M, D, NativeScalar>> {
+class SphereHarmonicTerm : public DensityTerm<VaryingDensity<Harmonic>, D, SphereProjection<M, D, NativeScalar>> {
   using T = NativeScalar;
-  using Base = DensityTerm<HarmonicModel, D, SphereProjection<M, D, T>>;
+  using Base = DensityTerm<VaryingDensity<Harmonic>, D, SphereProjection<M, D, T>>;
   static constexpr int N = M::ambient, k = M::dim;
   using Vector = Vec<T, N>;
   using Matrix = Mat<T, N, N>;
@@ -109,4 +109,4 @@ class SphereHarmonicTerm : public DensityTerm<HarmonicModel, D, SphereProjection
   }
 };
 
-}  // namespace karcher
+}  // namespace karcher::catalogue

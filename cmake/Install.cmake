@@ -10,7 +10,7 @@ endforeach()
 list(TRANSFORM rooms PREPEND karcher_ OUTPUT_VARIABLE room_targets)
 install(TARGETS karcher ${room_targets} EXPORT KarcherTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT KarcherTargets NAMESPACE karcher:: DESTINATION ${package_directory})
-install(DIRECTORY include/karcher DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.hpp)
+install(DIRECTORY include/karcher ${PROJECT_BINARY_DIR}/include/karcher DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.hpp)
 
 configure_package_config_file(cmake/KarcherConfig.cmake.in ${PROJECT_BINARY_DIR}/KarcherConfig.cmake INSTALL_DESTINATION ${package_directory})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/KarcherConfigVersion.cmake COMPATIBILITY SameMinorVersion)

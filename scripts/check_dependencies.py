@@ -64,9 +64,9 @@ def room_of(path):
 
 
 def target_of(root, path, quote, name):
-    """The file of this tree that the include means, relative to root, or None for a foreign header."""
+    """The file of this tree that the include means (NAME.in, where CMake makes NAME of it), relative to root, or None for a foreign header."""
     candidates = [path.parent / name] if quote == '"' else []
-    candidates += [Path("include") / name, Path("src") / name]
+    candidates += [Path("include") / name, Path("src") / name, Path("include") / (name + ".in")]
     return next((c for c in candidates if (root / c).is_file()), None)
 
 
@@ -120,7 +120,8 @@ def self_test():
     """Every rule must object to its own violation and to nothing else."""
     good = {
         "include/karcher/error.hpp": "#pragma once\n",
-        "include/karcher/math/tensor.hpp": '#include "karcher/error.hpp"\n',
+        "include/karcher/version.hpp.in": "#pragma once\n",
+        "include/karcher/math/tensor.hpp": '#include "karcher/error.hpp"\n#include "karcher/version.hpp"\n',
         "include/karcher/manifold/sphere.hpp": '#include "karcher/math/tensor.hpp"\n',
         "include/karcher/mesh/mesh.hpp": '#include "karcher/math/tensor.hpp"\n',
         "include/karcher/field/field.hpp": '#include "karcher/mesh/mesh.hpp"\n#include "karcher/manifold/sphere.hpp"\n',

@@ -2,7 +2,8 @@
 """Keeps the documents true to the files they quote.
 
 A code block after a line `<!-- file: tutorials/hello_sphere.cpp -->` must be that file, letter by letter; after `<!-- lines: FILE FIRST LAST -->` it must be
-the lines from the first that contains FIRST to the next that contains LAST. Relative links must lead to a file that exists.
+the lines from the first that contains FIRST to the next that contains LAST. Relative links must lead to a file that exists. CITATION.cff names the version of
+CMakeLists.txt.
 
     scripts/check_documents.py          report what is wrong (exit code 1)
     scripts/check_documents.py --update write the quoted files into the blocks
@@ -28,9 +29,16 @@ def quoted(kind, name, first, last):
     return "".join(lines[begin : end + 1])
 
 
+def versions_that_differ():
+    """Sentences, one if CITATION.cff and the project of CMakeLists.txt have not the same version."""
+    project = re.search(r"^project\(\w+ VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
+    cited = re.search(r"^version: (\S+)$", (ROOT / "CITATION.cff").read_text(), re.MULTILINE)[1]
+    return [] if cited == project else [f"CITATION.cff: cites version {cited}, but CMakeLists.txt makes {project}."]
+
+
 def main(update):
     names = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True)
-    wrong = []
+    wrong = versions_that_differ()
     documents = [ROOT / name for name in names.stdout.split()]
     for document in documents:
         text = document.read_text()

@@ -43,6 +43,7 @@
 #include "karcher/solve/exchange.hpp"
 #include "karcher/solve/minimize.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/version.hpp"
 
 namespace karcher {
 

@@ -9,6 +9,7 @@
 #include "app/verbs.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/text.hpp"
+#include "karcher/version.hpp"
 
 namespace karcher::app {
 namespace {
@@ -173,10 +174,8 @@ int doc(const std::string& key) {
   throw InputError("There is nothing about \"" + key + "\". " + suggestion(key, known, "Pages"));
 }
 
-std::string version_text() { return KARCHER_VERSION; }
-
 int version() {
-  fmt::print("karcher {}\n", version_text());
+  fmt::print("karcher {}\n", version_string);
   return 0;
 }
 

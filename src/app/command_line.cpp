@@ -9,6 +9,7 @@
 #include "app/ranks.hpp"
 #include "app/verbs.hpp"
 #include "karcher/io/view.hpp"
+#include "karcher/version.hpp"
 
 namespace karcher::app {
 namespace {
@@ -34,7 +35,7 @@ int command_line(int argc, char** argv) {
   CLI::App app("Geometric finite elements: minimisers among maps into manifolds, from one text file.", "karcher");
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "help of all verbs");
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", std::string(version_string));
   int ranks = 1;
   std::function<int()> action;
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "app/errors.hpp"
-#include "app/verbs.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/version.hpp"
 
 namespace karcher::app {
 
@@ -39,7 +39,7 @@ Results::Results(const Problem& problem, const Model& model, std::uint64_t ident
       start_(seconds_now() - setup_seconds) {
   const Mesh& mesh = *model.discretisation.mesh;
   summary_.title = problem.title;
-  summary_.version = version_text();
+  summary_.version = version_string;
   summary_.mesh.cells = static_cast<long>(mesh.cells.size());
   summary_.mesh.nodes = static_cast<long>(mesh.nodes.size());
   summary_.mesh.order = 1;

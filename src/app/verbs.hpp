@@ -51,6 +51,4 @@ int make_new(const std::string& name, const std::string& example);
 /// Directory of the examples: KARCHER_EXAMPLES, else beside a program that was built, else installed. \throws Error if there is none
 std::filesystem::path examples_directory();
 
-std::string version_text();
-
 }  // namespace karcher::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "karcher/manifold/sphere.hpp"
 #include "karcher/mesh/generators.hpp"
@@ -12,8 +13,15 @@
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/solve/petsc.hpp"
 #include "karcher/testing/manifold_laws.hpp"
+#include "karcher/version.hpp"
 
 KARCHER_MANIFOLD_LAWS(InstalledSphere, karcher::Sphere<2>)
+
+TEST(InstalledLibrary, TellsTheVersionOfItsPackageInWordsAndNumbers) {
+  EXPECT_EQ(karcher::version_string, PACKAGE_VERSION);
+  const auto text = [](int number) { return std::to_string(number); };
+  EXPECT_EQ(karcher::version_string, text(karcher::version_major) + "." + text(karcher::version_minor) + "." + text(karcher::version_patch));
+}
 
 TEST(InstalledLibrary, StartsPetscOnOneRank) { EXPECT_EQ(karcher::world_size(), 1); }
 

@@ -1,11 +1,8 @@
 #include "karcher/io/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
-#include <bit>
-#include <cstring>
-
+#include "io/binary.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 
@@ -18,66 +15,18 @@ namespace {
 constexpr std::string_view magic = "KARCHER\x1a";
 constexpr std::uint32_t version = 1;
 constexpr std::size_t head_size = 24;
-static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-class Writer {
- public:
-  template <class T>
-  void put(const T& value) {
-    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void put(std::string_view s) {
-    put(static_cast<std::uint64_t>(s.size()));
-    text_.append(s);
-  }
-  void put(const std::vector<double>& v) {
-    put(static_cast<std::uint64_t>(v.size()));
-    text_.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(double));
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-/// Reads a payload whose check sum is right; lengths are checked nonetheless, so that no file whatever makes us read beyond its end.
-class Reader {
- public:
-  Reader(std::string_view rest, std::string source) : rest_(rest), source_(std::move(source)) {}
-  template <class T>
-  T get() {
-    T value;
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
-  }
-  std::string get_string() { return std::string(take(get<std::uint64_t>())); }
-  std::vector<double> get_doubles() {
-    const auto n = get<std::uint64_t>();
-    if (n > rest_.size() / sizeof(double)) throw damaged();
-    std::vector<double> v(n);
-    const std::string_view bytes = take(n * sizeof(double));
-    if (n > 0) std::memcpy(v.data(), bytes.data(), bytes.size());
-    return v;
-  }
-  bool empty() const { return rest_.empty(); }
-  InputError damaged() const { return InputError(fmt::format("The checkpoint {} is damaged.", source_)); }
-
- private:
-  std::string_view take(std::uint64_t n) {
-    if (n > rest_.size()) throw damaged();
-    const std::string_view piece = rest_.substr(0, n);
-    rest_.remove_prefix(n);
-    return piece;
-  }
-  std::string_view rest_;
-  std::string source_;
-};
-
-std::uint32_t check_sum(std::string_view text) {
-  uLong crc = crc32(0, nullptr, 0);
-  crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text.data()), text.size());
-  return static_cast<std::uint32_t>(crc);
+/// A length (u64) and as many bytes or numbers.
+void put(BinaryWriter& writer, std::string_view text) {
+  writer.number<std::uint64_t>(text.size());
+  writer.text(text);
 }
+void put(BinaryWriter& writer, const std::vector<double>& values) {
+  writer.number<std::uint64_t>(values.size());
+  writer.numbers<double>(values);
+}
+std::string get_text(BinaryReader& reader) { return std::string(reader.text(reader.number<std::uint64_t>())); }
+std::vector<double> get_numbers(BinaryReader& reader) { return reader.numbers<double>(reader.number<std::uint64_t>()); }
 
 }  // namespace
 
@@ -126,25 +75,25 @@ Identity& Identity::add(std::span<const Field> fields) {
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint, std::span<const Field> fields, std::uint64_t identity) {
-  Writer body;
-  body.put(identity);
-  body.put(static_cast<std::int64_t>(checkpoint.load_step));
-  body.put(checkpoint.configuration.t);
-  body.put(checkpoint.increment);
-  body.put(std::string_view(checkpoint.summary));
-  body.put(static_cast<std::uint64_t>(fields.size()));
+  BinaryWriter body;
+  body.number<std::uint64_t>(identity);
+  body.number<std::int64_t>(checkpoint.load_step);
+  body.number<double>(checkpoint.configuration.t);
+  body.number<double>(checkpoint.increment);
+  put(body, checkpoint.summary);
+  body.number<std::uint64_t>(fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    body.put(std::string_view(fields[i].name));
-    body.put(std::string_view(fields[i].manifold->name));
-    body.put(static_cast<std::uint64_t>(fields[i].manifold->ambient));
-    body.put(checkpoint.configuration.values[i]);
+    put(body, fields[i].name);
+    put(body, fields[i].manifold->name);
+    body.number<std::uint64_t>(static_cast<std::uint64_t>(fields[i].manifold->ambient));
+    put(body, checkpoint.configuration.values[i]);
   }
-  std::string content(magic);
-  Writer head;
-  head.put(version);
-  head.put(check_sum(body.text()));
-  head.put(static_cast<std::uint64_t>(body.text().size()));
-  write_atomically(file, content + head.text() + body.text());
+  BinaryWriter file_content;
+  file_content.text(magic);
+  file_content.number<std::uint32_t>(version);
+  file_content.number<std::uint32_t>(check_sum(body.bytes()));
+  put(file_content, body.bytes());
+  write_atomically(file, file_content.bytes());
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file, std::span<const Field> fields, std::uint64_t identity) {
@@ -154,31 +103,32 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, std::span<const Fi
     throw InputError(fmt::format("{} is not a checkpoint of Karcher.", source));
   const auto truncated = [&] { return InputError(fmt::format("The checkpoint {} is truncated.", source)); };
   if (content.size() < head_size) throw truncated();
-  Reader head(std::string_view(content).substr(magic.size(), head_size - magic.size()), source);
-  if (const auto v = head.get<std::uint32_t>(); v != version)
+  const std::string damaged = fmt::format("The checkpoint {} is damaged.", source);
+  BinaryReader head(std::string_view(content).substr(magic.size(), head_size - magic.size()), damaged);
+  if (const auto v = head.number<std::uint32_t>(); v != version)
     throw InputError(fmt::format("The checkpoint {} has version {}; this program reads version {}.", source, v, version));
-  const auto sum = head.get<std::uint32_t>();
-  const auto length = head.get<std::uint64_t>();
+  const auto sum = head.number<std::uint32_t>();
+  const auto length = head.number<std::uint64_t>();
   const std::string_view text = std::string_view(content).substr(head_size);
   if (text.size() < length) throw truncated();
-  if (text.size() > length || check_sum(text) != sum) throw head.damaged();
+  if (text.size() > length || check_sum(text) != sum) throw InputError(damaged);
 
-  Reader body(text, source);
-  const auto stored_identity = body.get<std::uint64_t>();
+  BinaryReader body(text, damaged);
+  const auto stored_identity = body.number<std::uint64_t>();
   Checkpoint c;
-  c.load_step = static_cast<int>(body.get<std::int64_t>());
-  c.configuration.t = body.get<double>();
-  c.increment = body.get<double>();
-  c.summary = body.get_string();
+  c.load_step = static_cast<int>(body.number<std::int64_t>());
+  c.configuration.t = body.number<double>();
+  c.increment = body.number<double>();
+  c.summary = get_text(body);
   const auto foreign = [&](const std::string& holds, const std::string& needs) {
     return InputError(fmt::format("The checkpoint {} belongs to another problem: it holds {}, the problem has {}.", source, holds, needs));
   };
-  const auto count = body.get<std::uint64_t>();
+  const auto count = body.number<std::uint64_t>();
   if (count != fields.size()) throw foreign(fmt::format("{} fields", count), fmt::format("{}", fields.size()));
   for (const Field& f : fields) {
-    const std::string field = body.get_string(), manifold = body.get_string();
-    const auto ambient = body.get<std::uint64_t>();
-    c.configuration.values.push_back(body.get_doubles());
+    const std::string field = get_text(body), manifold = get_text(body);
+    const auto ambient = body.number<std::uint64_t>();
+    c.configuration.values.push_back(get_numbers(body));
     const std::size_t nodes = ambient > 0 ? c.configuration.values.back().size() / ambient : 0;
     const auto expected = static_cast<std::size_t>(f.space->node_count());
     if (field != f.name || manifold != f.manifold->name || ambient != static_cast<std::uint64_t>(f.manifold->ambient) || nodes != expected ||
@@ -186,7 +136,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, std::span<const Fi
       throw foreign(fmt::format("field {} in {} with {} nodes", field, manifold, nodes),
                     fmt::format("field {} in {} with {} nodes", f.name, f.manifold->name, expected));
   }
-  if (!body.empty()) throw body.damaged();
+  if (body.left() > 0) throw InputError(damaged);
   if (stored_identity != identity)
     throw InputError(fmt::format(
         "The checkpoint {} belongs to another problem: mesh, energies, loads or boundary data have changed since it was written.", source));

@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 #include <unistd.h>
-#include <zlib.h>
 
-#include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "io/binary.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/page.hpp"
@@ -21,23 +21,9 @@ namespace karcher {
 namespace {
 
 using json = nlohmann::ordered_json;
-static_assert(std::endian::native == std::endian::little, "report.data is written as the machine holds its numbers");
+const std::string too_short = "too short";
 
-template <class T>
-void append(std::string& out, const T& value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-
-void append_floats(std::string& out, const std::vector<double>& values) {
-  const std::size_t begin = out.size();
-  out.resize(begin + sizeof(float) * values.size());
-  char* to = out.data() + begin;
-  for (const double v : values) {
-    const auto f = static_cast<float>(v);
-    std::memcpy(to, &f, sizeof f);
-    to += sizeof f;
-  }
-}
+void put_floats(BinaryWriter& out, const std::vector<double>& values) { out.numbers<float>(std::vector<float>(values.begin(), values.end())); }
 
 /// What ran: processor, cores, system.
 std::string machine_sentence() {
@@ -64,38 +50,17 @@ json list_of(const std::vector<OutputArray>& arrays) {
   return out;
 }
 
-/// Reads numbers off a payload; anything short is damage.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  template <class T>
-  std::vector<T> numbers(std::size_t count) {
-    if (count > bytes_.size() / sizeof(T)) throw InputError("too short");
-    std::vector<T> out(count);
-    std::memcpy(out.data(), bytes_.data(), count * sizeof(T));
-    bytes_.remove_prefix(count * sizeof(T));
-    return out;
-  }
-  std::string_view text(std::size_t count) {
-    if (count > bytes_.size()) throw InputError("too short");
-    const std::string_view out = bytes_.substr(0, count);
-    bytes_.remove_prefix(count);
-    return out;
-  }
-  bool empty() const { return bytes_.empty(); }
-  std::size_t left() const { return bytes_.size(); }
-
- private:
-  std::string_view bytes_;
-};
-
 std::vector<StoredArray> read_list(const json& list) {
   std::vector<StoredArray> out;
-  for (const json& a : list) out.push_back({a.at("name"), a.at("components")});
+  for (const json& a : list) {
+    out.push_back({a.at("name"), a.at("components")});
+    if (out.back().components < 1) throw InputError("no components");
+  }
   return out;
 }
 
-void read_description(const json& j, Reader& reader, Store& store) {
+void read_description(const json& j, BinaryReader& reader, Store& store) {
+  if (!store.parts.empty() || !store.states.empty()) throw InputError("the states before are of other parts");
   store.machine = j.at("machine");
   store.deformation = j.at("deformation");
   for (const auto& [name, manifold] : j.at("manifolds").items()) store.manifolds[name] = manifold;
@@ -118,30 +83,26 @@ void read_description(const json& j, Reader& reader, Store& store) {
         if (n >= part.points) throw InputError("unknown node");
         c.nodes.push_back(static_cast<int>(n));
       }
-    part.reference = reader.numbers<float>(3 * part.points);
+    part.reference = reader.numbers<float>(part.points, 3);
     store.parts.push_back(std::move(part));
   }
 }
 
-StoredState read_state(const json& j, Reader& reader, const Store& store) {
+StoredState read_state(const json& j, BinaryReader& reader, const Store& store) {
   StoredState state;
   state.state = j.at("state");
   state.t = j.at("t");
   for (const auto& [name, value] : j.at("energies").items()) state.energies.emplace_back(name, value.is_null() ? NAN : value.get<double>());
   for (const StoredPart& part : store.parts) {
     StoredValues values;
-    if (part.moves) values.displacement = reader.numbers<float>(3 * part.points);
+    if (part.moves) values.displacement = reader.numbers<float>(part.points, 3);
     for (const StoredArray& a : part.point_data)
-      values.point_data.push_back(reader.numbers<float>(part.points * static_cast<std::size_t>(a.components)));
+      values.point_data.push_back(reader.numbers<float>(part.points, static_cast<std::size_t>(a.components)));
     for (const StoredArray& a : part.cell_data)
-      values.cell_data.push_back(reader.numbers<float>(part.cells.size() * static_cast<std::size_t>(a.components)));
+      values.cell_data.push_back(reader.numbers<float>(part.cells.size(), static_cast<std::size_t>(a.components)));
     state.parts.push_back(std::move(values));
   }
   return state;
-}
-
-std::uint32_t checksum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 /// Calls visit(kind, json, rest of the payload, end of the record in the file) for every whole record until it returns false. Returns whether the file ends after the last.
@@ -149,15 +110,15 @@ template <class Visit>
 bool for_records(std::string_view content, Visit visit) {
   std::size_t at = store_magic.size();
   while (at < content.size()) {
-    Reader head(content.substr(at));
+    BinaryReader head(content.substr(at), too_short);
     if (head.left() < 16) return false;
     const auto words = head.numbers<std::uint32_t>(2);
-    const auto size = head.numbers<std::uint64_t>(1)[0];
+    const auto size = head.number<std::uint64_t>();
     if (size > head.left() || size < 4) return false;
     const std::string_view payload = head.text(size);
-    if (checksum(payload) != words[1]) return false;
-    Reader reader(payload);
-    const std::uint32_t bytes = reader.numbers<std::uint32_t>(1)[0];
+    if (check_sum(payload) != words[1]) return false;
+    BinaryReader reader(payload, too_short);
+    const auto bytes = reader.number<std::uint32_t>();
     if (bytes > reader.left()) return false;
     const std::string_view text = reader.text(bytes);
     at += 16 + size;
@@ -181,15 +142,16 @@ void append_to_file(const std::filesystem::path& file, std::string_view bytes) {
 }  // namespace
 
 std::string record(std::uint32_t kind, const std::string& text, std::string_view numbers) {
-  std::string payload;
-  append(payload, static_cast<std::uint32_t>(text.size()));
-  payload += text;
-  payload += numbers;
-  std::string out;
-  append(out, kind);
-  append(out, checksum(payload));
-  append(out, static_cast<std::uint64_t>(payload.size()));
-  return out + payload;
+  BinaryWriter payload;
+  payload.number<std::uint32_t>(static_cast<std::uint32_t>(text.size()));
+  payload.text(text);
+  payload.text(numbers);
+  BinaryWriter out;
+  out.number<std::uint32_t>(kind);
+  out.number<std::uint32_t>(check_sum(payload.bytes()));
+  out.number<std::uint64_t>(payload.bytes().size());
+  out.text(payload.bytes());
+  return out.bytes();
 }
 
 Store read_store(const std::filesystem::path& file) {
@@ -199,7 +161,7 @@ Store read_store(const std::filesystem::path& file) {
   if (std::string_view(content).substr(0, store_magic.size()) != store_magic)
     throw InputError(fmt::format("The file {} does not hold the states of a run of Karcher.", file.string()));
   try {
-    store.cut_off = !for_records(content, [&](std::uint32_t kind, const json& j, Reader& reader, std::size_t) {
+    store.cut_off = !for_records(content, [&](std::uint32_t kind, const json& j, BinaryReader& reader, std::size_t) {
       if (kind == description_record) read_description(j, reader, store);
       if (kind == state_record) store.states.push_back(read_state(j, reader, store));
       return true;
@@ -244,7 +206,7 @@ PageStates::PageStates(std::filesystem::path directory, const OutputModel& model
     const std::string content = read_whole(file_);
     if (std::string_view(content).substr(0, store_magic.size()) == store_magic) {
       std::size_t end = store_magic.size();
-      for_records(content, [&](std::uint32_t kind, const json& j, Reader&, std::size_t record_end) {
+      for_records(content, [&](std::uint32_t kind, const json& j, BinaryReader&, std::size_t record_end) {
         if (kind == state_record && j.at("state").get<int>() >= first_state) return false;
         described_ = described_ || kind == description_record;
         end = record_end;
@@ -259,7 +221,7 @@ PageStates::PageStates(std::filesystem::path directory, const OutputModel& model
 void PageStates::write(int state, double t, const std::vector<OutputPart>& parts, const NamedNumbers& energies) {
   if (!described_) {
     json description = json::parse(description_);
-    std::string numbers;
+    BinaryWriter numbers;
     json list = json::array();
     for (const OutputPart& p : parts) {
       const OutputArray* reference = find(p.point_data, "reference");
@@ -271,28 +233,29 @@ void PageStates::write(int state, double t, const std::vector<OutputPart>& parts
                       {"moves", find(p.point_data, "displacement") != nullptr},
                       {"point_data", list_of(p.point_data)},
                       {"cell_data", list_of(p.cell_data)}});
-      for (const OutputCell& c : p.cells) append(numbers, static_cast<std::uint32_t>(c.kind));
+      for (const OutputCell& c : p.cells) numbers.number<std::uint32_t>(static_cast<std::uint32_t>(c.kind));
       for (const OutputCell& c : p.cells)
-        for (const int n : c.nodes) append(numbers, static_cast<std::uint32_t>(n));
+        for (const int n : c.nodes) numbers.number<std::uint32_t>(static_cast<std::uint32_t>(n));
       std::vector<double> places;
       for (const Vec3<double>& x : p.points) places.insert(places.end(), {x[0], x[1], x[2]});
-      append_floats(numbers, reference ? reference->values : places);
+      put_floats(numbers, reference ? reference->values : places);
     }
     description["parts"] = std::move(list);
-    append_to_file(file_, record(description_record, description.dump(-1, ' ', false, json::error_handler_t::replace), numbers));
+    append_to_file(file_, record(description_record, description.dump(-1, ' ', false, json::error_handler_t::replace), numbers.bytes()));
     described_ = true;
   }
-  std::string numbers;
+  BinaryWriter numbers;
   for (const OutputPart& p : parts) {
-    if (const OutputArray* displacement = find(p.point_data, "displacement")) append_floats(numbers, displacement->values);
+    if (const OutputArray* displacement = find(p.point_data, "displacement")) put_floats(numbers, displacement->values);
     for (const auto* arrays : {&p.point_data, &p.cell_data})
       for (const OutputArray& a : *arrays)
-        if (a.name != "displacement" && a.name != "reference") append_floats(numbers, a.values);
+        if (a.name != "displacement" && a.name != "reference") put_floats(numbers, a.values);
   }
   json named = json::object();
   for (const auto& [name, value] : energies) named[name] = value;
-  append_to_file(file_, record(state_record,
-                               json{{"state", state}, {"t", t}, {"energies", named}}.dump(-1, ' ', false, json::error_handler_t::replace), numbers));
+  append_to_file(file_,
+                 record(state_record, json{{"state", state}, {"t", t}, {"energies", named}}.dump(-1, ' ', false, json::error_handler_t::replace),
+                        numbers.bytes()));
 }
 
 }  // namespace karcher

@@ -477,6 +477,33 @@ TEST(PageStates, ARecordCutOffByAKillIsLeftOutAndSaidSo) {
   EXPECT_EQ(read_store(directory / "report.data").states.size(), 2U);
 }
 
+TEST(PageStates, LengthsBeyondTheFileAreRefusedAlsoWhereTheirBytesAreMoreThan64BitsCount) {
+  const TemporaryDirectory directory;
+  const auto refusal = [&](const json& part, std::string_view numbers) -> std::string {
+    const json description{
+        {"machine", ""}, {"deformation", ""}, {"manifolds", json::object()}, {"terms", json::array()}, {"parts", json::array({part})}};
+    write_atomically(directory / "report.data", std::string(store_magic) + record(description_record, description.dump(), numbers));
+    try {
+      read_store(directory / "report.data");
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  json part{{"region", "all"},           {"dim", 1}, {"order", 1}, {"points", 1}, {"cells", 0}, {"moves", false}, {"point_data", json::array()},
+            {"cell_data", json::array()}};
+  const std::string three_floats(12, '\0');
+  EXPECT_EQ(refusal(part, three_floats), "accepted");
+  // 3 * 6148914691236517206 = 2^64 + 2
+  for (const std::uint64_t points : {std::uint64_t{2}, std::uint64_t{1} << 62, std::uint64_t{6148914691236517206}}) {
+    part["points"] = points;
+    EXPECT_NE(refusal(part, three_floats).find("was written by another version of Karcher"), std::string::npos) << points;
+  }
+  part["points"] = 1;
+  part["cells"] = std::uint64_t{1} << 62;
+  EXPECT_NE(refusal(part, three_floats).find("was written by another version of Karcher"), std::string::npos);
+}
+
 TEST(PageStates, AResumedRunGoesOnAfterTheStatesItKeeps) {
   const TemporaryDirectory directory;
   const auto mesh = generated("interval", {{"cells", {3}}});

@@ -65,13 +65,14 @@ class Fields {
     const std::size_t size = kind == "direction" ? 3 : 1;
     json numbers = json::array();
     long bad = 0;
+    std::vector<double> in = room_for(from);
     for (const int s : states_) {
       const StoredState& state = store_.states[static_cast<std::size_t>(s)];
       Values v(shape_.vertices.size() * size, missing);
       for (std::size_t i = 0; i < shape_.vertices.size(); ++i) {
-        double in[max_inputs], out[3];
-        if (!interpolate(i, state, from, in)) continue;
-        value(in, out);
+        double out[3];
+        if (!interpolate(i, state, from, in.data())) continue;
+        value(in.data(), out);
         bad += !std::all_of(out, out + size, [](double x) { return std::isfinite(x); });
         for (std::size_t c = 0; c < size; ++c) v[i * size + c] = static_cast<float>(out[c]);
       }
@@ -87,14 +88,14 @@ class Fields {
     json numbers = json::array();
     long bad = 0;
     const std::vector<Vec3<double>> reference = normals(nullptr);
+    std::vector<double> in = room_for(from);
     for (const int s : states_) {
       const StoredState& state = store_.states[static_cast<std::size_t>(s)];
       const std::vector<Vec3<double>> normal = normals(&state);
       Values v(shape_.vertices.size(), missing);
       for (std::size_t i = 0; i < v.size(); ++i) {
-        double in[max_inputs];
-        if (store_.parts[part_of(i)].dim != 2 || !interpolate(i, state, from, in)) continue;
-        const Vec3<double> d = director(in, reference[i]), c = cross(d, normal[i]);
+        if (store_.parts[part_of(i)].dim != 2 || !interpolate(i, state, from, in.data())) continue;
+        const Vec3<double> d = director(in.data(), reference[i]), c = cross(d, normal[i]);
         const double angle = std::atan2(std::sqrt(dot(c, c)), std::abs(dot(d, normal[i]))) * degree;
         v[i] = static_cast<float>(angle);
         bad += !std::isfinite(angle);
@@ -127,8 +128,10 @@ class Fields {
       const StoredValues& values = store_.states[static_cast<std::size_t>(s)].parts[p];
       Values v, u;
       for (const std::size_t i : chosen) {
+        float in[most_read] = {};
         double out[6];
-        value(&values.point_data[k][i * components], out);
+        std::copy_n(&values.point_data[k][i * components], std::min(components, most_read), in);
+        value(in, out);
         for (int c = 0; c < size; ++c) v.push_back(static_cast<float>(out[c]));
         if (part.moves)
           u.insert(u.end(), values.displacement.begin() + static_cast<std::ptrdiff_t>(3 * i),
@@ -145,10 +148,25 @@ class Fields {
   }
 
  private:
-  static constexpr std::size_t max_inputs = 16;
+  static constexpr std::size_t most_read = 9;  ///< of the numbers of a point: three directors, or a matrix
 
   std::size_t part_of(std::size_t vertex) const {
     return static_cast<std::size_t>(shape_.facets[static_cast<std::size_t>(shape_.vertices[vertex].facet)].part);
+  }
+
+  /// Room for the arrays at a vertex, and for all that is read of them where a file has fewer.
+  std::vector<double> room_for(const std::vector<std::string>& from) const {
+    std::size_t most = most_read;
+    for (const StoredPart& part : store_.parts) {
+      std::size_t sum = 0;
+      for (const std::string& name : from)
+        if (const int k = index_of(part.point_data, name); k >= 0)
+          sum += static_cast<std::size_t>(part.point_data[static_cast<std::size_t>(k)].components);
+        else
+          sum += 3;  // displacement
+      most = std::max(most, sum);
+    }
+    return std::vector<double>(most);
   }
 
   /// The arrays at a vertex, one after the other; false where its part does not have them.

@@ -444,6 +444,33 @@ TEST(Page, ValuesThatAreNotNumbersAreCountedAndKept) {
   EXPECT_EQ(page.shape().at("start").at("glyphs"), "u");
 }
 
+TEST(Page, OfManyCoordinatesNineAreShownAndFewerThanTheManifoldHasAreReadWithinTheirBounds) {
+  const auto mesh = generated("interval", {{"cells", {3}}});
+  for (const auto& [manifold, components] : {std::pair("Product", 20), {"SO3", 1}, {"SPD3", 2}}) {
+    const TemporaryDirectory directory;
+    OutputModel model;
+    model.fields = {field_on(mesh, mesh->region("all"), "u", "R1", 1)};
+    std::vector<OutputPart> parts = Output(model).sample({{nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0}; })}, 0});
+    OutputArray& array = parts.at(0).point_data.at(0);
+    array.components = components;
+    array.values.clear();
+    for (std::size_t point = 0; point < parts[0].points.size(); ++point)
+      for (int c = 0; c < components; ++c) array.values.push_back(c + 1);
+    ManifoldOps ops;
+    ops.name = manifold;
+    model.fields[0].manifold = &ops;
+    PageStates states(directory.path(), model);
+    states.write(0, 0, parts);
+    write_summary(directory / "summary.json", summary_of(manifold));
+    write_page(directory.path());
+    const ReadPage page = read_page(directory.path());
+    if (components < 9) continue;
+    for (int c = 1; c <= 9; ++c)
+      for (const double v : page.array(page.field("u." + std::to_string(c)).at("arrays").at(0))) EXPECT_EQ(v, c);
+    EXPECT_THROW(page.field("u.10"), std::runtime_error);
+  }
+}
+
 TEST(Page, MoreStatesThanAllowedAreThinnedKeepingFirstAndLast) {
   const TemporaryDirectory directory;
   const auto mesh = generated("interval", {{"cells", {2}}});

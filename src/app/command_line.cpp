@@ -8,7 +8,6 @@
 #include "app/launch.hpp"
 #include "app/ranks.hpp"
 #include "app/verbs.hpp"
-#include "karcher/io/view.hpp"
 #include "karcher/version.hpp"
 
 namespace karcher::app {

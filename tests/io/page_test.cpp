@@ -18,7 +18,6 @@
 #include "io/page_store.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
-#include "karcher/io/view.hpp"
 #include "temporary_directory.hpp"
 
 namespace karcher {
@@ -551,48 +550,10 @@ TEST(PageStates, AResumedRunGoesOnAfterTheStatesItKeeps) {
 TEST(Page, WithoutResultsOrWithForeignFilesItSaysWhatIsWrong) {
   const TemporaryDirectory directory;
   EXPECT_THROW(write_page(directory.path()), InputError);
-  ViewOptions nowhere;
-  nowhere.directory = directory / "nowhere";
-  EXPECT_THROW(view(nowhere), InputError);
   write_summary(directory / "summary.json", summary_of("x"));
   write_atomically(directory / "report.data", "something else");
   EXPECT_THROW(write_page(directory.path()), InputError);
   EXPECT_FALSE(std::filesystem::exists(directory / "report.html"));
-}
-
-TEST(View, WithoutABrowserItSaysWhatToInstall) {
-  const TemporaryDirectory directory;
-  write_summary(directory / "summary.json", summary_of("x"));
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", directory.path().c_str(), 1);
-  ::unsetenv("KARCHER_CHROMIUM");
-  ViewOptions options;
-  options.directory = directory.path();
-  options.png = directory / "x.png";
-  std::string words;
-  try {
-    view(options);
-  } catch (const InputError& error) {
-    words = error.what();
-  }
-  ::setenv("PATH", path.c_str(), 1);
-  EXPECT_NE(words.find("apt-get install chromium"), std::string::npos) << words;
-  EXPECT_TRUE(std::filesystem::exists(directory / "report.html"));
-  EXPECT_FALSE(std::filesystem::exists(directory / "x.png"));
-}
-
-TEST(View, ABrowserThatEndsAtOnceIsReported) {
-  const TemporaryDirectory directory;
-  write_summary(directory / "summary.json", summary_of("x"));
-  ::setenv("KARCHER_CHROMIUM", "/bin/false", 1);
-  ViewOptions options;
-  options.directory = directory.path();
-  options.png = directory / "x.png";
-  EXPECT_THROW(view(options), Error);
-  ::setenv("KARCHER_CHROMIUM", "/no/such/program", 1);
-  EXPECT_THROW(view(options), Error);
-  ::unsetenv("KARCHER_CHROMIUM");
-  EXPECT_FALSE(std::filesystem::exists(directory / "x.png"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace karcher {
+namespace karcher::app {
 
 /// $KARCHER_CHROMIUM, or the first of chromium, chromium-browser, google-chrome, google-chrome-stable in $PATH; empty if there is none.
 std::filesystem::path find_browser();
@@ -41,4 +41,4 @@ std::string file_url(const std::filesystem::path& path);
 /// Everything but letters, digits and -._~/ as %XX.
 std::string percent_encoded(std::string_view text);
 
-}  // namespace karcher
+}  // namespace karcher::app

@@ -1,4 +1,4 @@
-#include "io/browser.hpp"
+#include "app/browser.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@
 
 extern char** environ;
 
-namespace karcher {
+namespace karcher::app {
 namespace {
 
 using json = nlohmann::json;
@@ -193,4 +193,4 @@ std::string percent_encoded(std::string_view text) {
 
 std::string file_url(const std::filesystem::path& path) { return "file://" + percent_encoded(std::filesystem::absolute(path).string()); }
 
-}  // namespace karcher
+}  // namespace karcher::app

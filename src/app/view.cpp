@@ -1,13 +1,12 @@
-#include "karcher/io/view.hpp"
-
 #include <fmt/format.h>
 
-#include "io/browser.hpp"
+#include "app/browser.hpp"
+#include "app/verbs.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/page.hpp"
 
-namespace karcher {
+namespace karcher::app {
 namespace {
 
 std::string fragment(const ViewOptions& options) {
@@ -74,4 +73,4 @@ int view(const ViewOptions& options) {
   return 0;
 }
 
-}  // namespace karcher
+}  // namespace karcher::app

@@ -12,8 +12,8 @@ extern "C" void dsyev_(const char* job, const char* triangle, const int* n, doub
 
 namespace karcher {
 
-Eigen symmetric_eigen(int n, std::vector<double> matrix) {
-  Eigen result;
+Spectrum symmetric_eigen(int n, std::vector<double> matrix) {
+  Spectrum result;
   result.values.resize(static_cast<std::size_t>(n));
   if (n == 0) return result;
   const int room = 34 * n;
@@ -25,7 +25,7 @@ Eigen symmetric_eigen(int n, std::vector<double> matrix) {
   return result;
 }
 
-DenseStep minimise_in_ball(const Eigen& eigen, std::span<const double> b, double radius) {
+DenseStep minimise_in_ball(const Spectrum& eigen, std::span<const double> b, double radius) {
   const std::size_t n = eigen.values.size();
   DenseStep step;
   step.y.assign(n, 0.0);

@@ -8,10 +8,10 @@
 namespace karcher {
 
 /// Eigenvalues in ascending order and eigenvectors (columns, column-major) of a symmetric n x n matrix. \throws Error if LAPACK fails.
-struct Eigen {
+struct Spectrum {
   std::vector<double> values, vectors;
 };
-Eigen symmetric_eigen(int n, std::vector<double> matrix);
+Spectrum symmetric_eigen(int n, std::vector<double> matrix);
 
 struct DenseStep {
   std::vector<double> y;
@@ -20,6 +20,6 @@ struct DenseStep {
 };
 
 /// Global minimiser of b.y + 1/2 y.B y over |y| <= radius, B given by its eigenvalues and -vectors (More, Sorensen 1983; exact, with the hard case).
-DenseStep minimise_in_ball(const Eigen& eigen, std::span<const double> b, double radius);
+DenseStep minimise_in_ball(const Spectrum& eigen, std::span<const double> b, double radius);
 
 }  // namespace karcher

@@ -93,7 +93,7 @@ class TrustRegionModel {
   std::map<double, int> counts_;  ///< negative eigenvalues of H + shift M by shift
   std::vector<std::vector<double>> basis_, h_basis_;
   std::vector<double> projected_h_, projected_g_;  // V^T H V in packed growing storage: entry (i, j), i <= j at j (j + 1) / 2 + i
-  Eigen eigen_;                                    ///< of V^T H V
+  Spectrum eigen_;                                 ///< of V^T H V
   bool has_steepest_ = false;
   bool searched_ = false;  ///< for negative directions that g does not lead to, with this factorisation
   int seed_ = 0;           ///< of the current inverse iteration

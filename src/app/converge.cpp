@@ -13,6 +13,7 @@
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/refine.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/petsc.hpp"
 
@@ -127,7 +128,7 @@ void errors_against_finest(std::vector<Level>& levels, const Model& finest_model
           sums[1] += rule.weights[q] * metric.measure * slope;
         }
       }
-      finest_model.exchange->sum_all(sums);
+      sum_over_ranks(sums);
       levels[coarse].errors[field.name] = {std::sqrt(sums[0]), std::sqrt(sums[1])};
     }
   }
@@ -257,7 +258,7 @@ int converge(const ConvergeOptions& options) {
     if (solves) {
       reached = solve(problem, model, level.u, prolonged);
       complete(*model.layout, level.u);
-      level.energy = model.exchange->sum(model.functional->energy(level.u).energy);
+      level.energy = sum_over_ranks(model.functional->energy(level.u).energy);
     }
     level.status = solves ? std::string(name(reached)) : "interpolated";
     if (reached != Status::converged) status = reached;

@@ -5,6 +5,7 @@
 
 #include "karcher/interpolation/evaluate.hpp"
 #include "karcher/mesh/quadrature.hpp"
+#include "karcher/solve/collectives.hpp"
 
 namespace karcher::app {
 
@@ -80,7 +81,7 @@ std::map<std::string, Summary::Error> errors_against_exact(const Problem& proble
       sums.insert(sums.end(), {l2, h1});
     }
   });
-  model.exchange->sum_all(sums);
+  sum_over_ranks(sums);
   std::size_t k = 0;
   for (const auto& entry : problem.exact) {
     errors[problem.fields[static_cast<std::size_t>(entry.first)].name] = {std::sqrt(sums[k]), std::sqrt(sums[k + 1])};

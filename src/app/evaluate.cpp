@@ -5,6 +5,7 @@
 
 #include "app/errors.hpp"
 #include "app/verbs.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/norm.hpp"
 #include "karcher/solve/petsc.hpp"
 
@@ -21,7 +22,7 @@ double gradient_norm(const Model& model, std::vector<double> gradient) {
     const auto k = static_cast<std::size_t>(i);
     if (!layout.fixed(i) && mass[k] > 0) sum += gradient[k] * gradient[k] / mass[k];
   }
-  return std::sqrt(model.exchange->sum(sum));
+  return std::sqrt(sum_over_ranks(sum));
 }
 
 nlohmann::ordered_json number(double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); }
@@ -47,7 +48,7 @@ int evaluate(const EvaluateOptions& options) {
     const std::vector<double> parts = term->part_energies(u);
     sums.insert(sums.end(), parts.begin(), parts.end());
   }
-  model.exchange->sum_all(sums);
+  sum_over_ranks(sums);
   double energy = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) energy += sums[i];
   const double norm = gradient_norm(model, gradient);

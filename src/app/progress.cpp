@@ -8,6 +8,7 @@
 
 #include "app/errors.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/version.hpp"
 
 namespace karcher::app {
@@ -94,13 +95,13 @@ void Results::resume(const Checkpoint& checkpoint) {
 void Results::measure(const Configuration& u) {
   const Functional& f = *model_.functional;
   const Evaluation e = f.energy(u);
-  const bool defined = model_.exchange->first_text(e.failure ? e.failure->sentence() : "").empty();
+  const bool defined = first_text(e.failure ? e.failure->sentence() : "").empty();
   std::vector<double> sums = e.terms;
   for (const auto& term : f.terms()) {
     const std::vector<double> parts = term->part_energies(u);
     sums.insert(sums.end(), parts.begin(), parts.end());
   }
-  model_.exchange->sum_all(sums);
+  sum_over_ranks(sums);
   // A sum over some of the cells would be a wrong number.
   if (!defined) std::fill(sums.begin(), sums.end(), std::numeric_limits<double>::quiet_NaN());
   summary_.energy = 0;
@@ -119,7 +120,7 @@ void Results::write_state(int state, const Configuration& u, bool files) {
   if (!problem_.output.vtu && !problem_.output.report) return;
   if (!files) return;
   std::vector<double> energies = output_.cell_energies(*model_.functional, u);
-  model_.exchange->sum_all(energies);
+  sum_over_ranks(energies);
   together([&] {
     if (!writer_) return;
     const std::vector<OutputPart> parts = output_.sample(u, energies);
@@ -150,7 +151,7 @@ void Results::load_step_finished(const StepReport& report, const Configuration& 
   // Until the end, what stands there is the summary of a run that was cut off after this load step.
   summary_.status = report.status == Status::converged ? Status::interrupted : report.status;
   summary_.reason = fmt::format("Load step {} (t = {:.6g}) ended: {}", report.load_step, report.t, report.reason);
-  summary_.peak_memory_mb = model_.exchange->sum(peak_memory_mb());
+  summary_.peak_memory_mb = sum_over_ranks(peak_memory_mb());
   together([&] {
     if (!writer_) return;
     write_summary(directory() / "summary.json", summary_);
@@ -165,7 +166,7 @@ void Results::finish(Status status, const std::string& reason) {
   summary_.status = status;
   summary_.reason = reason;
   const double begin = seconds_now();
-  summary_.peak_memory_mb = model_.exchange->sum(peak_memory_mb());
+  summary_.peak_memory_mb = sum_over_ranks(peak_memory_mb());
   update_times();
   together([&] {
     if (!writer_) return;

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "app/launch.hpp"
-#include "karcher/solve/exchange.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/petsc.hpp"
 
 namespace karcher::app {
@@ -40,8 +40,7 @@ int on_ranks(const std::function<int()>& verb) {
 }
 
 void throw_everywhere(const std::string& error) {
-  const int rank = world_rank();
-  const std::string first = world_size() == 1 ? error : Exchange(1, rank, 1, {rank}).first_text(error);
+  const std::string first = first_text(error);
   if (first.empty()) return;
   if (first[0] == 'I') throw SharedInputError(first.substr(1));
   throw SharedError(first.substr(1));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/norm.hpp"
 #include "solve/stopwatch.hpp"
 
@@ -51,10 +52,10 @@ double Evaluator::proximal(const Configuration& u, std::span<double> g, BlockMat
 }
 
 void Evaluator::finish_energy(Iterate& x, const Evaluation& local, double proximal_energy) {
-  x.failure = exchange_.first_text(local.failure ? local.failure->sentence() : "");
+  x.failure = first_text(local.failure ? local.failure->sentence() : "");
   std::vector<double> sums = local.terms;
   sums.push_back(proximal_energy);
-  exchange_.sum_all(sums);
+  sum_over_ranks(sums);
   x.energy = 0;
   x.noise = 0;
   for (double e : sums) {
@@ -75,7 +76,7 @@ void Evaluator::finish(Iterate& x, const Evaluation& local, double proximal_ener
     if (fixed_[d]) x.g[d] = 0;
     if (d < static_cast<std::size_t>(exchange_.owned_dofs())) square += x.g[d] * x.g[d] / mass_[d];
   }
-  x.gradient_norm = std::sqrt(exchange_.sum(square));
+  x.gradient_norm = std::sqrt(sum_over_ranks(square));
 }
 
 void Evaluator::energy(Iterate& x) {

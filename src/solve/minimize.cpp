@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "karcher/error.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/norm.hpp"
 #include "solve/evaluator.hpp"
 #include "solve/model.hpp"
@@ -154,7 +155,7 @@ struct Minimizer::State {
   double size(std::span<const double> s) const {
     double square = 0;
     for (std::size_t d = 0; d < static_cast<std::size_t>(exchange.owned_dofs()); ++d) square += mass[d] * s[d] * s[d];
-    return std::sqrt(exchange.sum(square));
+    return std::sqrt(sum_over_ranks(square));
   }
 
   /// Norm of the step that moves all nodes as far as s moves the farthest one of each field.
@@ -170,7 +171,7 @@ struct Minimizer::State {
         farthest = std::max(farthest, here);
         if (layout.owns(f, node)) weight += mass[first];
       }
-      square += exchange.sum(weight) * exchange.max(farthest);
+      square += sum_over_ranks(weight) * max_over_ranks(farthest);
     }
     return std::sqrt(square);
   }
@@ -194,7 +195,7 @@ struct Minimizer::State {
 
 /// Hessian at the current iterate and its factorisation, if they are not there already. False if the Hessian could not be evaluated.
 bool Minimizer::State::factor_at_current() {
-  const bool same_place = !exchange.any(factored_at.values.empty() || factored_at.values != current.u.values);
+  const bool same_place = !on_any_rank(factored_at.values.empty() || factored_at.values != current.u.values);
   std::vector<double> before;
   if (same_place) before = h.values;
   evaluator.hessian(current, h);
@@ -203,7 +204,7 @@ bool Minimizer::State::factor_at_current() {
     return false;
   }
   // The matrix may be the same although the load has changed (dead loads): then so is the factorisation.
-  if (same_place && !exchange.any(before != h.values)) {
+  if (same_place && !on_any_rank(before != h.values)) {
     model->set_gradient(current.g);
     return true;
   }
@@ -350,7 +351,7 @@ bool Minimizer::State::count_negative_eigenvalues() {
       const std::size_t at = static_cast<std::size_t>(h.row_begin[d / bs]) * bs * bs + (d % bs) * (bs + 1);
       stiffest = std::max(stiffest, std::abs(h.values[at]) / mass[d]);
     }
-  stiffest = exchange.max(stiffest);
+  stiffest = max_over_ranks(stiffest);
   report.negative_eigenvalues = model->inertia().negative;
   report.neutral_eigenvalues = model->inertia().null;
   if (model->inertia().negative > 0) {
@@ -395,7 +396,7 @@ bool Minimizer::State::iterate() {
   bool rejected = false;
   std::string trouble;  // of the last trial point
   for (;;) {
-    if (exchange.any(interrupt_requested)) {
+    if (on_any_rank(interrupt_requested)) {
       stop(Status::interrupted, fmt::format("Interrupted; the gradient norm is {:.3g}, its threshold {:.3g}.", current.gradient_norm, tolerance()));
       return true;
     }

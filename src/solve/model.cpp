@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "karcher/solve/collectives.hpp"
 #include "solve/seed.hpp"
 #include "solve/stopwatch.hpp"
 
@@ -91,7 +92,7 @@ void TrustRegionModel::set_gradient(std::span<const double> g) {
   has_steepest_ = false;
   double square = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += g_[d] * g_[d] / mass_[d];
-  dual_norm_ = std::sqrt(exchange_.sum(square));
+  dual_norm_ = std::sqrt(sum_over_ranks(square));
 }
 
 void TrustRegionModel::refactor(double shift) {
@@ -117,7 +118,7 @@ std::vector<double> TrustRegionModel::against_basis(std::span<const double> w) c
     for (std::size_t d = 0; d < owned; ++d) sum += basis_[i][d] * w[d];
     products[i] = sum;
   }
-  exchange_.sum_all(products);
+  sum_over_ranks(products);
   return products;
 }
 
@@ -129,7 +130,7 @@ bool TrustRegionModel::expand(std::vector<double> w) {
     double square = 0;
     for (std::size_t d = 0; d < n; ++d) mw[d] = mass_[d] * w[d];
     for (std::size_t d = 0; d < owned; ++d) square += mw[d] * w[d];
-    return std::sqrt(exchange_.sum(square));
+    return std::sqrt(sum_over_ranks(square));
   };
   const double before = weigh();
   if (!(before > 0) || !std::isfinite(before)) return false;
@@ -217,7 +218,7 @@ TrustRegionModel::Step TrustRegionModel::step(double radius, const Effort& effor
     double square = 0;
     for (std::size_t d = 0; d < r.size(); ++d) r[d] = fixed_[d] ? 0 : g_[d] + hs[d] + best.multiplier * mass_[d] * s[d];
     for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d) square += r[d] * r[d] / mass_[d];
-    const double residual = std::sqrt(exchange_.sum(square));
+    const double residual = std::sqrt(sum_over_ranks(square));
     small_gains = expansions > 0 && best.decrease - last <= effort.accuracy * best.decrease ? small_gains + 1 : 0;
 
     const int missing = missing_directions(best.multiplier);

@@ -1,10 +1,12 @@
 #include "karcher/solve/petsc.hpp"
 
 #include <dlfcn.h>
+#include <petscsys.h>
 
 #include <cstdlib>
 
 #include "karcher/error.hpp"
+#include "solve/check_petsc.hpp"
 
 namespace karcher {
 namespace {

@@ -63,7 +63,7 @@ class Output {
   ~Output();
 
   /// Energy of every term on every cell of every part that this rank evaluates, zero elsewhere, in a flat array of the same length on every rank.
-  /// Summed over the ranks, entry by entry (Exchange::sum_all), it is what sample() takes.
+  /// Summed over the ranks, entry by entry (sum_over_ranks), it is what sample() takes.
   std::vector<double> cell_energies(const Functional& functional, const Configuration& u) const;
 
   /// \param u complete on this rank (values of all nodes, see complete() in solve/exchange.hpp); a node where an interpolation is not defined gets NaN

@@ -6,8 +6,6 @@
 /// One rank computes with one thread: the BLAS is set to one thread unless the environment says otherwise (OPENBLAS_NUM_THREADS), so that one rank gives the
 /// same bits run after run and ranks do not fight for cores. On several ranks MUMPS adds contributions in the order in which they arrive: results agree to rounding.
 
-#include <petscsys.h>
-
 #include <string>
 
 namespace karcher {
@@ -31,8 +29,5 @@ int world_rank();
 int world_size();
 /// Ends all ranks at once, for errors that only one of them has met. The message is the caller's business.
 [[noreturn]] void end_all_ranks(int exit_code);
-
-/// \throws Error with PETSc's own words if code is not 0.
-void check_petsc(PetscErrorCode code);
 
 }  // namespace karcher

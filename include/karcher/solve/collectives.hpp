@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Collectives: numbers and words on which all ranks agree; they need no layout of unknowns. Sums are taken in the order of the ranks: same ranks, same bits.
+
+#include <span>
+#include <string>
+
+namespace karcher {
+
+/// Entry by entry over all ranks, in place; as many entries on every rank.
+void sum_over_ranks(std::span<double> values);
+double sum_over_ranks(double x);
+double max_over_ranks(double x);
+bool on_any_rank(bool x);
+/// Text of the lowest rank that has one; empty if none has.
+std::string first_text(const std::string& text);
+
+}  // namespace karcher

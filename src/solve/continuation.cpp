@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "karcher/error.hpp"
-#include "karcher/solve/exchange.hpp"
+#include "solve/tuning.hpp"
 
 namespace karcher {
 
@@ -25,7 +25,8 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
   const bool flow = solver.method == "gradient-flow";
   if (flow && !(options.to > options.from))
     throw InputError("A gradient flow needs a time interval: the load parameter must grow from `from` to `to`.");
-  Minimizer minimizer(functional, solver);
+  const SolverTuning& tuning = default_tuning;
+  Minimizer minimizer(functional, solver, tuning);
   ContinuationReport result;
 
   // Progress is counted in parts of the whole range, so that the last step ends exactly at `to`.
@@ -34,7 +35,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
   int load_step = 0;
   while (done < 1) {
     double next = std::min(1.0, done + part);
-    if (1 - next < 1e-3 * part) next = 1;
+    if (1 - next < tuning.step_remainder * part) next = 1;
     if (!options.adaptive) next = static_cast<double>(load_step + 1) / options.steps;
     const double t = next == 1 ? options.to : options.from + next * (options.to - options.from);
 
@@ -50,11 +51,11 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     task.time_step = flow ? (next - done) * (options.to - options.from) : 0.0;
     StepReport report = minimizer.run(u, task, observers);
 
-    const bool retry =
-        options.adaptive && (report.status == Status::not_converged || report.status == Status::failed) && 0.5 * part >= options.smallest;
+    const bool retry = options.adaptive && (report.status == Status::not_converged || report.status == Status::failed) &&
+                       tuning.step_fall * part >= options.smallest;
     if (retry) {
       u = before;
-      part *= 0.5;
+      part *= tuning.step_fall;
       continue;
     }
     result.steps.push_back(report);
@@ -67,7 +68,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     }
     done = next;
     ++load_step;
-    if (options.adaptive && report.iterations <= 5) part = std::min(2 * part, whole);
+    if (options.adaptive && report.iterations <= tuning.few_iterations) part = std::min(tuning.step_growth * part, whole);
   }
   return result;
 }

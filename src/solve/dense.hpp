@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small dense problems in the subspace of the trust-region model.
+/// Small dense problems, as they arise in a Subspace.
 
 #include <span>
 #include <vector>

@@ -9,9 +9,9 @@
 
 namespace karcher {
 
-Evaluator::Evaluator(Functional& functional, const Exchange& exchange, const std::vector<char>& fixed, const std::vector<double>& mass,
+Evaluator::Evaluator(Functional& functional, const Exchange& exchange, const std::vector<char>& fixed, const std::vector<double>& mass, double noise,
                      WorkCounts& work, PhaseSeconds& phases)
-    : functional_(functional), exchange_(exchange), fixed_(fixed), mass_(mass), work_(work), phases_(phases) {}
+    : functional_(functional), exchange_(exchange), fixed_(fixed), mass_(mass), noise_(noise), work_(work), phases_(phases) {}
 
 void Evaluator::set_proximal(const Configuration& centre, double tau) {
   tau_ = tau;
@@ -60,7 +60,7 @@ void Evaluator::finish_energy(Iterate& x, const Evaluation& local, double proxim
   x.noise = 0;
   for (double e : sums) {
     x.energy += e;
-    x.noise += 4e-15 * std::abs(e);
+    x.noise += noise_ * std::abs(e);
   }
   sums.pop_back();
   x.terms = std::move(sums);

@@ -26,8 +26,9 @@ struct Iterate {
 
 class Evaluator {
  public:
-  Evaluator(Functional& functional, const Exchange& exchange, const std::vector<char>& fixed, const std::vector<double>& mass, WorkCounts& work,
-            PhaseSeconds& phases);
+  /// noise: see SolverTuning. All references must outlive it; work and phases are counted up.
+  Evaluator(Functional& functional, const Exchange& exchange, const std::vector<char>& fixed, const std::vector<double>& mass, double noise,
+            WorkCounts& work, PhaseSeconds& phases);
 
   /// From now on E(u) + 1/(2 tau) sum_i m_i dist(u_i, centre_i)^2, m the lumped mass of each field's space; tau = 0: E alone.
   void set_proximal(const Configuration& centre, double tau);
@@ -47,6 +48,7 @@ class Evaluator {
   const Exchange& exchange_;
   const std::vector<char>& fixed_;
   const std::vector<double>& mass_;
+  const double noise_;
   WorkCounts& work_;
   PhaseSeconds& phases_;
   Configuration centre_;

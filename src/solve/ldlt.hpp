@@ -10,13 +10,9 @@
 
 #include "karcher/assembly/block_matrix.hpp"
 #include "karcher/solve/exchange.hpp"
+#include "solve/inertia.hpp"
 
 namespace karcher {
-
-struct Inertia {
-  int negative = 0;
-  int null = 0;  ///< pivots that vanish to rounding
-};
 
 class Ldlt {
  public:

@@ -2,17 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "karcher/solve/petsc.hpp"
+#include "solve/share.hpp"
 
 namespace karcher {
 namespace {
 
-/// What rank r contributes to entry i: sums of these depend on the order of the terms.
-double share(int rank, std::size_t i) { return std::pow(-1.0, rank) * (1e16 / (rank + 1) + 0.1 * static_cast<double>(i)); }
+using testing::share;
 
 TEST(Collectives, AddInTheOrderOfTheRanks) {
   constexpr std::size_t n = 70000;  // longer than one piece

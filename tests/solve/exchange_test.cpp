@@ -7,6 +7,7 @@
 
 #include "karcher/solve/collectives.hpp"
 #include "solve/distributed.hpp"
+#include "solve/share.hpp"
 
 namespace karcher {
 namespace {
@@ -33,7 +34,7 @@ TEST_P(ExchangeOf, KnowsWhatEveryRankOwns) {
 }
 
 TEST_P(ExchangeOf, SumsOwnedAndGhostEntriesInOneOrderAndFillsTheGhosts) {
-  const auto share = [](int rank, std::size_t i) { return std::pow(-1.0, rank) * (1e16 / (rank + 1) + 0.1 * static_cast<double>(i)); };
+  using testing::share;
   std::vector<double> v = local([&](std::size_t i) { return share(exchange.rank(), i); });
   exchange.sum(v);
   const std::vector<double> expected = local([&](std::size_t i) {

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "karcher/solve/petsc.hpp"
+#include "solve/share.hpp"
 
 namespace karcher {
 namespace {
@@ -22,15 +21,13 @@ struct Shared {
 TEST(StarForest, AddsAtTheRootsInTheOrderOfTheRanks) {
   const Shared s;
   const StarForest forest(s.leaves, s.offsets, 2);
-  // Terms of very different size: the sum depends on their order.
-  const auto share = [](int rank, std::size_t i) { return std::pow(-1.0, rank) * (1e16 / (rank + 1) + 0.1 * static_cast<double>(i)); };
   std::vector<double> leaves, roots(s.owned(), 3.0);
   for (const int entry : s.leaves)
-    for (std::size_t k = 0; k < 2; ++k) leaves.push_back(share(world_rank(), 2 * static_cast<std::size_t>(entry) + k));
+    for (std::size_t k = 0; k < 2; ++k) leaves.push_back(testing::share(world_rank(), 2 * static_cast<std::size_t>(entry) + k));
   forest.add_to_roots(leaves.data(), roots.data());
   for (std::size_t i = 0; i < roots.size(); ++i) {
     double expected = 3.0;
-    for (int r = 0; r < world_size(); ++r) expected += share(r, i);
+    for (int r = 0; r < world_size(); ++r) expected += testing::share(r, i);
     EXPECT_EQ(roots[i], expected);
   }
 }

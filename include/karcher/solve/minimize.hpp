@@ -18,6 +18,8 @@
 
 namespace karcher {
 
+struct SolverTuning;
+
 struct SolverOptions {
   std::string method =
       "trust-region";  ///< "trust-region", or "gradient-flow": one implicit Euler step of the L2 gradient flow for each load step, t is the time
@@ -44,6 +46,8 @@ class Minimizer {
  public:
   /// Collective. \throws InputError with the first sentence of options.validate().
   Minimizer(Functional& functional, SolverOptions options);
+  /// With other inner constants than the solver's own (for its tests).
+  Minimizer(Functional& functional, SolverOptions options, const SolverTuning& tuning);
   ~Minimizer();
 
   struct Task {

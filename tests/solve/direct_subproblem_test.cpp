@@ -1,4 +1,4 @@
-#include "solve/model.hpp"
+#include "solve/direct_subproblem.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "solve/distributed.hpp"
+#include "solve/multiply.hpp"
 #include "solve/random_matrix.hpp"
+#include "solve/tuning.hpp"
 
 namespace karcher {
 namespace {
@@ -16,17 +18,16 @@ using testing::Distributed;
 using testing::matrix_with;
 using testing::random_vector;
 
-/// A model of n unknowns with eigenvalues of M^-1/2 H M^-1/2 as given, and its dense reference.
+/// A subproblem of n unknowns with eigenvalues of M^-1/2 H M^-1/2 as given, and its dense reference.
 struct Problem {
   std::vector<double> mass, scaled, scaled_gradient, gradient;
   std::unique_ptr<Distributed> d;
   std::vector<char> fixed;
   std::vector<double> local_mass;
   std::vector<std::uint64_t> numbers;
-  std::unique_ptr<Ldlt> ldlt;
   WorkCounts work;
   PhaseSeconds phases;
-  std::unique_ptr<TrustRegionModel> model;
+  std::unique_ptr<DirectSubproblem> subproblem;
 
   /// missing: eigenvectors to which the gradient is orthogonal; noise: relative errors of the matrix
   Problem(const std::vector<double>& eigenvalues, unsigned seed, const std::vector<int>& missing = {}, double noise = 0) {
@@ -51,9 +52,9 @@ struct Problem {
     local_mass = d->local(mass);
     for (int block : d->exchange.local_to_global())
       for (int k = 0; k < 2; ++k) numbers.push_back(static_cast<std::uint64_t>(2 * block + k));
-    ldlt = std::make_unique<Ldlt>(d->exchange, d->matrix, fixed);
-    model = std::make_unique<TrustRegionModel>(d->exchange, *ldlt, fixed, local_mass, numbers, work, phases);
-    model->set(d->matrix, d->local(gradient), 0);
+    subproblem =
+        std::make_unique<DirectSubproblem>(SubproblemInput{d->exchange, d->matrix, fixed, local_mass, numbers, default_tuning, work, phases});
+    subproblem->set(d->matrix, d->local(gradient), 0);
   }
   DenseStep reference(double radius) const {
     return minimise_in_ball(symmetric_eigen(static_cast<int>(mass.size()), scaled), scaled_gradient, radius);
@@ -66,23 +67,23 @@ std::vector<double> spread(int n, double low, double high) {
   return values;
 }
 
-TEST(TrustRegionModel, TakesTheNewtonStepWithOneFactorisationWhereItIsInside) {
+TEST(DirectSubproblem, TakesTheNewtonStepWithOneFactorisationWhereItIsInside) {
   Problem p(spread(60, 1e-3, 1e6), 1);
-  const auto step = p.model->step(1e9, {.accuracy = 1e-8, .expansions = 20, .refactorisations = 3});
+  const auto step = p.subproblem->step(1e9, {.accuracy = 1e-8, .expansions = 20, .refactorisations = 3});
   EXPECT_EQ(step.multiplier, 0);
   EXPECT_NEAR(step.decrease, p.reference(1e9).decrease, 1e-7 * step.decrease);
   EXPECT_EQ(p.work.factorisations, 1);
   EXPECT_LE(p.work.solves, 3);
 }
 
-TEST(TrustRegionModel, AgreesWithTheDenseSolutionForAnyRadius) {
+TEST(DirectSubproblem, AgreesWithTheDenseSolutionForAnyRadius) {
   for (double lowest : {-1.0, 1e-4}) {
     auto eigenvalues = spread(80, 1e-4, 1e6);
     eigenvalues[0] = lowest;
     eigenvalues[1] = 3 * lowest;
     Problem p(eigenvalues, 2);
     for (double radius : {1e3, 10.0, 1.0, 1e-2, 1e-4, 1e-6}) {
-      const auto step = p.model->step(radius, {.accuracy = 1e-6, .expansions = 20, .refactorisations = 3});
+      const auto step = p.subproblem->step(radius, {.accuracy = 1e-6, .expansions = 20, .refactorisations = 3});
       const DenseStep exact = p.reference(radius);
       EXPECT_NEAR(step.norm, std::min(radius, step.norm), 1e-9 * radius);
       EXPECT_NEAR(step.decrease, exact.decrease, 1e-2 * exact.decrease) << "radius " << radius << ", lowest eigenvalue " << lowest;
@@ -92,11 +93,11 @@ TEST(TrustRegionModel, AgreesWithTheDenseSolutionForAnyRadius) {
   }
 }
 
-TEST(TrustRegionModel, ModelDecreaseIsThatOfTheReturnedStep) {
+TEST(DirectSubproblem, TheDecreaseIsThatOfTheReturnedStep) {
   auto eigenvalues = spread(50, 1e-2, 1e4);
   eigenvalues[0] = -0.3;
   Problem p(eigenvalues, 3);
-  auto step = p.model->step(0.7, {.accuracy = 1e-2, .expansions = 20, .refactorisations = 3});
+  auto step = p.subproblem->step(0.7, {.accuracy = 1e-2, .expansions = 20, .refactorisations = 3});
   p.d->exchange.update_ghosts(step.s);
   std::vector<double> hs(step.s.size());
   multiply(p.d->exchange, p.d->matrix, {}, step.s, hs);
@@ -108,19 +109,19 @@ TEST(TrustRegionModel, ModelDecreaseIsThatOfTheReturnedStep) {
   EXPECT_NEAR(std::sqrt(square), step.norm, 1e-12);
 }
 
-TEST(TrustRegionModel, FindsNegativeCurvatureThatTheGradientDoesNotSee) {
+TEST(DirectSubproblem, FindsNegativeCurvatureThatTheGradientDoesNotSee) {
   auto eigenvalues = spread(60, 1e-2, 1e4);
   eigenvalues[5] = -2;
   Problem p(eigenvalues, 4, {5});
-  EXPECT_EQ(p.model->inertia().negative, 1);
-  const auto step = p.model->step(3.0, {.accuracy = 1e-4, .expansions = 20, .refactorisations = 3});
-  EXPECT_EQ(p.model->negative_in_basis(), 1);
+  EXPECT_EQ(p.subproblem->inertia()->negative, 1);
+  const auto step = p.subproblem->step(3.0, {.accuracy = 1e-4, .expansions = 20, .refactorisations = 3});
+  EXPECT_EQ(p.subproblem->negative_in_basis(), 1);
   EXPECT_NEAR(step.multiplier, 2, 1e-4);
   const DenseStep exact = p.reference(3.0);
   EXPECT_NEAR(step.decrease, exact.decrease, 1e-4 * exact.decrease);
 }
 
-TEST(TrustRegionModel, DoesNotLeaveItToRoundingWhichWayAStructureBuckles) {
+TEST(DirectSubproblem, DoesNotLeaveItToRoundingWhichWayAStructureBuckles) {
   // Twelve directions of negative curvature, of which the gradient sees one: the others are in no residual, but for rounding.
   auto eigenvalues = spread(80, 1, 1e6);
   std::vector<int> missing;
@@ -131,18 +132,18 @@ TEST(TrustRegionModel, DoesNotLeaveItToRoundingWhichWayAStructureBuckles) {
   std::vector<double> steps[2];
   for (int run : {0, 1}) {
     Problem p(eigenvalues, 8, missing, run * 1e-15);
-    steps[run] = p.d->global(p.model->step(3.0, {}).s);
+    steps[run] = p.d->global(p.subproblem->step(3.0, default_tuning.trial).s);
   }
   for (std::size_t i = 0; i < 80; ++i) EXPECT_NEAR(steps[1][i], steps[0][i], 1e-6 * *std::max_element(steps[0].begin(), steps[0].end()));
 }
 
-TEST(TrustRegionModel, NeedsNoFactorisationForAnotherRadius) {
+TEST(DirectSubproblem, NeedsNoFactorisationForAnotherRadius) {
   auto eigenvalues = spread(60, 1e-3, 1e3);
   eigenvalues[0] = -0.1;
   Problem p(eigenvalues, 6);
-  p.model->step(2.0, {.accuracy = 1e-3, .expansions = 20, .refactorisations = 3});
+  p.subproblem->step(2.0, {.accuracy = 1e-3, .expansions = 20, .refactorisations = 3});
   const auto before = p.work;
-  const auto step = p.model->step(1.0, {.accuracy = 1e-3, .expansions = 20, .refactorisations = 3});
+  const auto step = p.subproblem->step(1.0, {.accuracy = 1e-3, .expansions = 20, .refactorisations = 3});
   EXPECT_EQ(p.work.factorisations, before.factorisations);
   EXPECT_LE(p.work.solves - before.solves, 3);
   EXPECT_NEAR(step.decrease, p.reference(1.0).decrease, 2e-3 * step.decrease);

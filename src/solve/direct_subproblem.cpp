@@ -1,0 +1,190 @@
+#include "solve/direct_subproblem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "karcher/solve/collectives.hpp"
+#include "solve/seed.hpp"
+#include "solve/stopwatch.hpp"
+#include "solve/tuning.hpp"
+
+namespace karcher {
+namespace {
+
+Ldlt analyse(const SubproblemInput& input) {
+  Stopwatch watch(input.phases.factorisation);
+  return Ldlt(input.exchange, input.pattern, input.fixed);
+}
+
+}  // namespace
+
+DirectSubproblem::DirectSubproblem(const SubproblemInput& input) : input_(input), ldlt_(analyse(input)), basis_(input) {}
+
+void DirectSubproblem::set(const BlockMatrix& h, std::span<const double> g, double shift) {
+  h_ = &h;
+  basis_.set_matrix(h);
+  counts_.clear();
+  seed_ = 0;
+  probe_ = -1;
+  refactor(shift);
+  set_gradient(g);
+}
+
+void DirectSubproblem::set_gradient(std::span<const double> g) {
+  basis_.set_gradient(g);
+  has_steepest_ = false;
+  double square = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(input_.exchange.owned_dofs()); ++d) square += g[d] * g[d] / input_.mass[d];
+  dual_norm_ = std::sqrt(sum_over_ranks(square));
+}
+
+void DirectSubproblem::refactor(double shift) {
+  Stopwatch watch(input_.phases.factorisation);
+  ++input_.work.factorisations;
+  shift_ = shift;
+  inertia_ = ldlt_.factor(*h_, shift, input_.mass);
+  counts_[shift] = inertia_.negative;
+  searched_ = false;
+}
+
+void DirectSubproblem::solve(std::span<const double> b, std::span<double> x) {
+  Stopwatch watch(input_.phases.solve);
+  ++input_.work.solves;
+  ldlt_.solve(b, x);
+}
+
+bool DirectSubproblem::expand(std::vector<double> w) {
+  Stopwatch watch(input_.phases.solve);
+  return basis_.expand(std::move(w));
+}
+
+Step DirectSubproblem::step(double radius, const Effort& effort) {
+  const SolverTuning& tuning = input_.tuning;
+  const std::vector<double>&g = basis_.gradient(), &mass = input_.mass;
+  const std::span<const double> across = effort.across ? std::span<const double>(effort.across->coordinates) : std::span<const double>();
+  std::vector<double> w(g.size()), r(g.size());
+  if (basis_.empty()) {
+    if (dual_norm_ > 0) {
+      solve(g, w);
+      expand(w);
+    }
+    // A symmetric gradient leads to symmetric directions alone.
+    if (negative_in_basis() < inertia_.negative) probe();
+  }
+  DenseStep best;
+  int expansions = 0, refactored = 0, small_gains = 0;
+  bool dry = false;  // the last expansion added nothing
+  for (double last = 0;; last = best.decrease) {
+    best = basis_.minimise(radius, across);
+    if (basis_.empty() || basis_.size() >= tuning.longest_basis) break;
+    if (best.multiplier > 0 && !has_steepest_) {  // at least Cauchy's decrease
+      has_steepest_ = true;
+      for (std::size_t d = 0; d < w.size(); ++d) w[d] = g[d] / mass[d];
+      if (expand(w)) continue;
+    }
+    const std::vector<double> s = basis_.combine(best.y), hs = basis_.combine_products(best.y);
+    double square = 0;
+    for (std::size_t d = 0; d < r.size(); ++d) r[d] = input_.fixed[d] ? 0 : g[d] + hs[d] + best.multiplier * mass[d] * s[d];
+    for (std::size_t d = 0; d < static_cast<std::size_t>(input_.exchange.owned_dofs()); ++d) square += r[d] * r[d] / mass[d];
+    const double residual = std::sqrt(sum_over_ranks(square));
+    small_gains = expansions > 0 && best.decrease - last <= effort.accuracy * best.decrease ? small_gains + 1 : 0;
+
+    const int missing = missing_directions(best.multiplier);
+    const bool solved = residual <= tuning.smallest_residual * dual_norm_;
+    if (solved && missing <= 0) break;
+    const bool stuck = small_gains >= tuning.patience || solved || dry;
+    if (stuck && missing <= 0 && residual <= tuning.good_residual * dual_norm_) break;
+    if (stuck && missing > 0 && !searched_ && (missing <= tuning.few_directions || inertia_.negative == 0)) {
+      find_negative_directions();
+      small_gains = 0;
+      dry = false;
+      continue;
+    }
+    if (stuck || expansions == effort.expansions) {
+      // A positive definite F tells no more when it has been searched, and larger shifts even less.
+      if (refactored == effort.refactorisations || (missing > 0 && inertia_.negative == 0)) break;
+      // At lambda the expansion converges fast, and directions of negative curvature that are missing are the first to appear. Where none is known, the
+      // shift grows until their number falls.
+      const double lowest = basis_.spectrum().values.front();
+      if (missing <= 0)
+        refactor(best.multiplier);
+      else if (negative_in_basis() > 0)
+        refactor(std::max({tuning.known_shift_growth * shift_, best.multiplier, -tuning.known_shift_growth * lowest}));
+      else
+        refactor(shift_ > 0 ? tuning.blind_shift_growth * shift_ : std::max(dual_norm_ / radius, tuning.blind_shift_growth * std::abs(lowest)));
+      ++refactored;
+      expansions = small_gains = 0;
+    }
+    if (solved) {
+      dry = !probe();
+    } else {
+      solve(r, w);
+      dry = !expand(w);
+    }
+    ++expansions;
+  }
+  return basis_.step_of(best);
+}
+
+Step DirectSubproblem::known_step(double radius, const Step* across) const {
+  return basis_.step_of(basis_.minimise(radius, across ? std::span<const double>(across->coordinates) : std::span<const double>()));
+}
+
+std::optional<Inertia> DirectSubproblem::inertia() {
+  if (shift_ != 0) refactor(0.0);
+  return inertia_;
+}
+
+double DirectSubproblem::next_shift(const Step& accepted, double ratio) const {
+  const SolverTuning& tuning = input_.tuning;
+  const double shift = ratio > tuning.trusted_ratio ? tuning.shift_fall * accepted.multiplier : accepted.multiplier;
+  return negative_in_basis() < inertia_.negative ? std::max(shift, shift_) : shift;
+}
+
+int DirectSubproblem::negative_in_basis(double shift) const {
+  const std::vector<double>& ritz = basis_.spectrum().values;
+  return static_cast<int>(std::count_if(ritz.begin(), ritz.end(), [&](double e) { return e + shift < 0; }));
+}
+
+int DirectSubproblem::missing_directions(double lambda) const {
+  const auto above = counts_.upper_bound(lambda);
+  if (above == counts_.begin()) return 0;
+  const auto [shift, count] = *std::prev(above);
+  return count - negative_in_basis(shift);
+}
+
+void DirectSubproblem::find_negative_directions() {
+  const SolverTuning& tuning = input_.tuning;
+  searched_ = true;
+  const int limit = std::min(tuning.probes + tuning.probes_per_direction * inertia_.negative, tuning.most_probes);
+  double lowest = basis_.empty() ? 0 : std::min(0.0, basis_.spectrum().values.front());
+  for (int k = 0; k < limit && basis_.size() < tuning.longest_basis; ++k) {
+    probe();
+    if (basis_.empty()) return;
+    const double now = basis_.spectrum().values.front();
+    const bool settled = now > tuning.settled * lowest;
+    if (negative_in_basis() >= inertia_.negative && settled) return;
+    lowest = std::min(lowest, now);
+  }
+}
+
+bool DirectSubproblem::probe() {
+  std::vector<double> w(basis_.gradient().size());
+  for (std::size_t d = 0; d < w.size(); ++d) {
+    const double from = probe_ >= 0 ? basis_.vector(probe_)[d] : seed_entry(seed_, input_.numbers[d]);
+    w[d] = input_.fixed[d] ? 0 : input_.mass[d] * from;
+  }
+  solve(w, w);
+  const bool expanded = expand(std::move(w));
+  if (!expanded) ++seed_;
+  probe_ = expanded ? basis_.size() - 1 : -1;
+  return expanded;
+}
+
+std::vector<double> DirectSubproblem::lowest_direction() const {
+  if (basis_.empty()) return std::vector<double>(basis_.gradient().size(), 0.0);
+  return basis_.combine(std::span(basis_.spectrum().vectors).first(static_cast<std::size_t>(basis_.size())));
+}
+
+}  // namespace karcher

@@ -1,0 +1,64 @@
+#include "solve/system.hpp"
+
+#include <algorithm>
+
+#include "karcher/solve/collectives.hpp"
+#include "karcher/solve/norm.hpp"
+#include "solve/seed.hpp"
+#include "solve/subproblems.hpp"
+
+namespace karcher {
+namespace {
+
+std::vector<char> fixed_flags(const Layout& layout) {
+  std::vector<char> fixed(static_cast<std::size_t>(layout.local_dofs()));
+  for (std::size_t d = 0; d < fixed.size(); ++d) fixed[d] = layout.fixed(static_cast<int>(d));
+  return fixed;
+}
+
+}  // namespace
+
+System::System(Functional& functional, SolverOptions o, const SolverTuning& t)
+    : layout(functional.layout()),
+      options(std::move(o)),
+      tuning(t),
+      exchange(layout),
+      fixed(fixed_flags(layout)),
+      mass(step_mass(layout)),
+      evaluator(functional, exchange, fixed, mass, tuning.noise, work, phases),
+      numbers_(seed_numbers(layout)),
+      h_(functional.make_matrix()) {}
+
+bool System::linearise(Iterate& x, double shift) {
+  const bool same_place = !on_any_rank(linearised_at_.values.empty() || linearised_at_.values != x.u.values);
+  std::vector<double> before;
+  if (same_place) before = h_.values;
+  evaluator.hessian(x, h_);
+  if (!x.ok()) {
+    linearised_at_.values.clear();
+    return false;
+  }
+  // The matrix may be the same although the load has changed (dead loads): then so is the factorisation.
+  if (same_place && !on_any_rank(before != h_.values)) {
+    subproblem_->set_gradient(x.g);
+    return true;
+  }
+  if (!subproblem_) {
+    const auto kinds = subproblems();
+    const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const SubproblemKind& k) { return options.subproblem == k.name; });
+    subproblem_ = kind->make({exchange, h_, fixed, mass, numbers_, tuning, work, phases});
+  }
+  subproblem_->set(h_, x.g, shift);
+  linearised_at_.values = x.u.values;
+  return true;
+}
+
+Iterate System::moved(const Configuration& from, std::span<const double> step) {
+  Iterate x;
+  x.u = from;
+  layout.retract(from, step, x.u);
+  evaluator.gradient(x);
+  return x;
+}
+
+}  // namespace karcher

@@ -41,9 +41,10 @@ void DirectSubproblem::set_gradient(std::span<const double> g) {
 
 void DirectSubproblem::refactor(double shift) {
   Stopwatch watch(input_.phases.factorisation);
-  ++input_.work.factorisations;
+  const long before = ldlt_.factorisations();
   shift_ = shift;
   inertia_ = ldlt_.factor(*h_, shift, input_.mass);
+  input_.work.factorisations += ldlt_.factorisations() - before;
   counts_[shift] = inertia_.negative;
   searched_ = false;
 }

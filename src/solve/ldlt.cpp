@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "karcher/error.hpp"
 #include "karcher/mesh/partition.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "solve/star_forest.hpp"
 
 namespace karcher {
 namespace {
@@ -56,9 +59,18 @@ struct Ldlt::Mumps {
   std::vector<int> row, column, permutation;
   std::vector<std::int64_t> source;  ///< place in BlockMatrix::values
   std::vector<double> values;        ///< entries of the matrix, then the diagonal of the owned dofs
-  std::vector<double> all;           ///< right hand side and solution on rank 0
-  std::vector<int> counts, begin;    ///< owned dofs by rank
+  std::vector<double> sides;         ///< right-hand sides: on owned dofs, column after column; on one rank solutions, too
+  long factorisations = 0;
   bool alive = false;
+
+  // Several ranks: MUMPS leaves an entry of the solution where its pivot is.
+  std::vector<int> owned;          ///< the rows of the owned dofs, from 1
+  std::vector<int> offsets;        ///< first owned dof of every rank, and the number of all
+  std::vector<int> solved;         ///< rows, from 1, of the entries that this rank gets
+  std::vector<double> solution;    ///< their values, column after column
+  std::optional<StarForest> home;  ///< from there to the owners
+  std::vector<int> home_is_of;     ///< the rows for which it was made
+  bool pivots_are_new = true;      ///< since `home` was looked at
 
   int& control(int i) { return id.icntl[i - 1]; }
   int info(int i) const { return id.infog[i - 1]; }
@@ -99,10 +111,8 @@ Ldlt::Ldlt(const Exchange& exchange, const BlockMatrix& pattern, std::vector<cha
     m.column.push_back(m.row.back());
   }
   m.values.assign(m.row.size(), 0.0);
-  for (std::size_t r = 0; r + 1 < exchange.offsets().size(); ++r) {
-    m.begin.push_back(exchange.offsets()[r] * bs);
-    m.counts.push_back((exchange.offsets()[r + 1] - exchange.offsets()[r]) * bs);
-  }
+  m.owned.assign(m.row.end() - exchange.owned_dofs(), m.row.end());
+  for (const int block : exchange.offsets()) m.offsets.push_back(block * bs);
 
   const Graph graph = gather_block_graph(exchange, pattern);
   if (exchange.rank() == 0)
@@ -117,11 +127,11 @@ Ldlt::Ldlt(const Exchange& exchange, const BlockMatrix& pattern, std::vector<cha
   m.alive = true;
   for (int output : {1, 2, 3}) m.control(output) = -1;
   m.control(4) = 0;
-  m.control(6) = 0;     // no permutation to a better diagonal: it is good
-  m.control(12) = 1;    // and no compression for it
-  m.control(13) = 1;    // no ScaLAPACK for the root: it would lose the inertia
-  m.control(14) = 100;  // per cent of room for delayed pivots
-  m.control(24) = 1;    // find null pivots
+  m.control(6) = 0;    // no permutation to a better diagonal: it is good
+  m.control(12) = 1;   // and no compression for it
+  m.control(13) = 1;   // no ScaLAPACK for the root: it would lose the inertia
+  m.control(14) = 25;  // per cent of room for delayed pivots, to begin with
+  m.control(24) = 1;   // find null pivots
   m.id.n = exchange.global_dofs();
   const auto entries = static_cast<MUMPS_INT8>(m.values.size());
   if (exchange.ranks() == 1) {
@@ -135,6 +145,10 @@ Ldlt::Ldlt(const Exchange& exchange, const BlockMatrix& pattern, std::vector<cha
     m.id.irn_loc = m.row.data();
     m.id.jcn_loc = m.column.data();
     m.id.a_loc = m.values.data();
+    m.control(20) = 10;  // distributed right-hand sides
+    m.control(21) = 1;   // and solutions
+    m.id.nloc_rhs = m.id.lrhs_loc = exchange.owned_dofs();
+    m.id.irhs_loc = m.owned.data();
   }
   m.id.perm_in = m.permutation.data();
   const auto analyse = [&](int order) {
@@ -160,36 +174,56 @@ Inertia Ldlt::factor(const BlockMatrix& h, double shift, std::span<const double>
   for (std::size_t k = 0; k < m.source.size(); ++k) m.values[k] = h.values[static_cast<std::size_t>(m.source[k])];
   for (std::size_t d = 0; d < static_cast<std::size_t>(exchange_.owned_dofs()); ++d)
     m.values[m.source.size() + d] = fixed_[d] ? 1.0 : shift * mass[d];
-  m.call(2);
-  for (int tries = 0; (m.info(1) == -8 || m.info(1) == -9) && tries < 4; ++tries) {  // more delayed pivots than there is room for
-    m.control(14) *= 2;
+  const auto factorise = [&] {
+    ++m.factorisations;
     m.call(2);
-  }
+    return m.info(1) != -8 && m.info(1) != -9;  // else there were more delayed pivots than there is room for
+  };
+  for (int tries = 0; !factorise() && tries < 6; ++tries) m.control(14) *= 2;
   m.require("factorise");
+  m.pivots_are_new = true;
   return {m.info(12), m.info(28)};
 }
 
-void Ldlt::solve(std::span<const double> b, std::span<double> x) {
+long Ldlt::factorisations() const { return mumps_->factorisations; }
+
+void Ldlt::solve(std::span<const double> b, std::span<double> x, int count) {
   Mumps& m = *mumps_;
-  const auto owned = static_cast<std::size_t>(exchange_.owned_dofs());
-  m.all.resize(exchange_.rank() == 0 ? static_cast<std::size_t>(exchange_.global_dofs()) : 0);
-  std::vector<double> mine(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(owned));
-  for (std::size_t d = 0; d < owned; ++d)
-    if (fixed_[d]) mine[d] = 0;
-  if (exchange_.ranks() == 1)
-    m.all.swap(mine);
-  else
-    MPI_Gatherv(mine.data(), static_cast<int>(owned), MPI_DOUBLE, m.all.data(), m.counts.data(), m.begin.data(), MPI_DOUBLE, 0, PETSC_COMM_WORLD);
-  m.id.rhs = m.all.data();
-  m.id.nrhs = 1;
-  m.id.lrhs = m.id.n;
+  const auto owned = static_cast<std::size_t>(exchange_.owned_dofs()), local = static_cast<std::size_t>(exchange_.local_dofs());
+  const auto columns = static_cast<std::size_t>(count);
+  m.sides.resize(owned * columns);
+  for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t d = 0; d < owned; ++d) m.sides[c * owned + d] = fixed_[d] ? 0 : b[c * local + d];
+  m.id.nrhs = count;
+  if (exchange_.ranks() == 1) {
+    m.id.rhs = m.sides.data();
+    m.id.lrhs = m.id.n;
+    m.call(3);
+    m.require("solve with");
+    std::copy(m.sides.begin(), m.sides.end(), x.begin());
+    return;
+  }
+  const auto held = static_cast<std::size_t>(m.id.info[22]);
+  m.solved.resize(held);
+  m.solution.resize(held * columns);
+  m.id.rhs_loc = m.sides.data();
+  m.id.isol_loc = m.solved.data();
+  m.id.sol_loc = m.solution.data();
+  m.id.lsol_loc = static_cast<MUMPS_INT>(held);
   m.call(3);
   m.require("solve with");
-  if (exchange_.ranks() == 1)
-    std::copy(m.all.begin(), m.all.end(), x.begin());
-  else
-    MPI_Scatterv(m.all.data(), m.counts.data(), m.begin.data(), MPI_DOUBLE, x.data(), static_cast<int>(owned), MPI_DOUBLE, 0, PETSC_COMM_WORLD);
-  exchange_.update_ghosts(x);
+  if (m.pivots_are_new && on_any_rank(!m.home || m.solved != m.home_is_of)) {
+    std::vector<int> entries;
+    for (const int row : m.solved) entries.push_back(row - 1);
+    m.home.emplace(entries, m.offsets, 1);
+    m.home_is_of = m.solved;
+  }
+  m.pivots_are_new = false;
+  for (std::size_t c = 0; c < columns; ++c) {
+    const std::span<double> column = x.subspan(c * local, local);
+    m.home->copy_to_roots(m.solution.data() + c * held, column.data());
+    exchange_.update_ghosts(column);
+  }
 }
 
 }  // namespace karcher

@@ -2,7 +2,8 @@
 /// \file
 /// Ldlt: sparse factorisation P^T (H + shift M) P = L D L^T on the free unknowns by MUMPS (Amestoy, Duff, L'Excellent, Koster 2001), with the inertia of the
 /// matrix (Sylvester: the signs of D). MUMPS is called directly, not through PETSc: PETSc does not hand on an elimination order for symmetric matrices, and
-/// copies the matrix once more. The contributions of the ranks are summed by MUMPS, so no rank assembles another's rows.
+/// copies the matrix once more. The contributions of the ranks are summed by MUMPS, so no rank assembles another's rows; right-hand sides and solutions are
+/// distributed, so no rank holds a whole vector.
 
 #include <memory>
 #include <span>
@@ -24,8 +25,11 @@ class Ldlt {
 
   /// H + shift * diag(mass), mass by local dof (owned entries are used). \throws Error if MUMPS gives up (memory). Collective.
   Inertia factor(const BlockMatrix& h, double shift, std::span<const double> mass);
-  /// x = (P L D L^T P^T)^-1 b on owned dofs; ghosts of x are filled, fixed entries are 0. b and x may be the same. Collective.
-  void solve(std::span<const double> b, std::span<double> x);
+  /// Factorisations so far, those included that had to be done again with more memory.
+  long factorisations() const;
+  /// x = (P L D L^T P^T)^-1 b for `count` vectors of local dofs, one after the other in b and x, which may be the same. The owned entries of b are read; ghosts of
+  /// x are filled, fixed entries are 0. Several at once read the factor once. Collective.
+  void solve(std::span<const double> b, std::span<double> x, int count = 1);
 
  private:
   struct Mumps;

@@ -2,6 +2,7 @@
 // A dense symmetric matrix as BlockMatrix on any number of ranks: every rank owns a range of blocks, sees all others as ghosts, and contributes its share of
 // every entry, so that sums over ranks matter.
 
+#include <algorithm>
 #include <vector>
 
 #include "karcher/assembly/block_matrix.hpp"
@@ -25,8 +26,9 @@ struct Distributed {
     return Exchange(block_size, begin, end - begin, local_to_global);
   }
 
-  /// dense: n x n with n = block_size * blocks.
-  Distributed(int bs, const std::vector<double>& dense, int n) : block_size(bs), blocks(n / bs), exchange(make_exchange(bs, n / bs)) {
+  /// dense: n x n with n = block_size * blocks. sparse: blocks off the diagonal that are zero are no part of the matrix.
+  Distributed(int bs, const std::vector<double>& dense, int n, bool sparse = false)
+      : block_size(bs), blocks(n / bs), exchange(make_exchange(bs, n / bs)) {
     const std::vector<int>& global = exchange.local_to_global();
     std::vector<int> local(global.size());
     for (std::size_t i = 0; i < global.size(); ++i) local[static_cast<std::size_t>(global[i])] = static_cast<int>(i);
@@ -35,9 +37,12 @@ struct Distributed {
     matrix.row_begin.push_back(0);
     for (int g : global) {
       for (int c = g; c < blocks; ++c) {
-        matrix.column.push_back(local[static_cast<std::size_t>(c)]);
+        std::vector<double> block;
         for (int j = 0; j < bs; ++j)
-          for (int i = 0; i < bs; ++i) matrix.values.push_back(dense[static_cast<std::size_t>((g * bs + i) * n + c * bs + j)] / ranks);
+          for (int i = 0; i < bs; ++i) block.push_back(dense[static_cast<std::size_t>((g * bs + i) * n + c * bs + j)] / ranks);
+        if (sparse && c != g && std::all_of(block.begin(), block.end(), [](double x) { return x == 0; })) continue;
+        matrix.column.push_back(local[static_cast<std::size_t>(c)]);
+        matrix.values.insert(matrix.values.end(), block.begin(), block.end());
       }
       matrix.row_begin.push_back(static_cast<int>(matrix.column.size()));
     }

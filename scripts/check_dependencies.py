@@ -12,6 +12,7 @@ from pathlib import Path
 # Room -> the rooms it uses directly; what those use it may use, too.
 USES = {
     "math": [],
+    "expression": ["math"],
     "manifold": ["math"],
     "interpolation": ["manifold"],
     "energy": ["manifold"],
@@ -147,6 +148,7 @@ def self_test():
         ("src/io/bad.cpp", "#include <toml++/toml.h>", "does not know TOML"),
         ("src/solve/bad.cpp", "#include <nlohmann/json.hpp>", "does not know compression and JSON"),
         ("src/math/bad.cpp", "#include <muParser.h>", "does not know expressions"),
+        ("src/expression/bad.cpp", '#include "karcher/mesh/mesh.hpp"', "expression uses mesh"),
         ("src/field/bad.cpp", '#include "solve/linear.hpp"', "field uses solve"),
         ("src/io/bad.cpp", '#include "solve/linear.hpp"', "private to solve"),
         ("src/io/bad.cpp", '#include "../solve/linear.hpp"', "say it from include/"),

@@ -24,7 +24,7 @@ std::string refusal(const std::string& text, const Scope& scope = {}) {
   return "accepted";
 }
 
-TEST(Expression, FollowsThePrecedenceOfMuParser) {
+TEST(Expression, BindsAsDocumented) {
   EXPECT_DOUBLE_EQ(value("-2^2"), -4);
   EXPECT_DOUBLE_EQ(value("2^3^2"), 512);
   EXPECT_DOUBLE_EQ(value("2^-1"), 0.5);
@@ -75,7 +75,28 @@ TEST(Expression, RefusesValuesThatAreNotFiniteAndSaysWhere) {
   EXPECT_NE(refusal("sqrt(-1)").find("must be finite"), std::string::npos) << refusal("sqrt(-1)");
 }
 
-TEST(Expression, DerivativesAgreeWithDifferencesAndValuesWithMuParser) {
+TEST(Expression, AParameterThatIsNotFiniteIsNamedWithItsOwnPlace) {
+  Scope scope;
+  scope.define("p", scope.compile("1/x", "parameters.p", {"file.toml", 3, 6}), {"file.toml", 3, 1});
+  scope.define("q", scope.compile("t*p", "parameters.q", {"file.toml", 4, 6}), {"file.toml", 4, 1});
+  const Expression e = scope.compile("x > 0 ? q : y", "load.value", {"file.toml", 7, 10});
+  EXPECT_DOUBLE_EQ(e(point, 3), 10);
+  try {
+    e({{0.0, 2.0, 0.0}}, 3);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "file.toml:3:6: parameters.p = \"1/x\" is inf at (0, 2, 0); it must be finite.");
+  }
+}
+
+TEST(Expression, ATextThatIsTooLongIsNotPrinted) {
+  const std::string message = refusal(std::string(1000001, '1'));
+  EXPECT_NE(message.find("file.toml:7:10: "), std::string::npos);
+  EXPECT_NE(message.find("it has 1000001 characters; 1000000 are the most."), std::string::npos);
+  EXPECT_LT(message.size(), 1200u);
+}
+
+TEST(Expression, DerivativesAgreeWithDifferencesAndValues) {
   Scope scope;
   scope.define("a", Expression(1.3), {});
   scope.define("r2", scope.compile("x^2 + y^2", "r2", {}), {});

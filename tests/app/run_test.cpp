@@ -1,5 +1,6 @@
 // The program as a user meets it: results, resolved problems, load steps, interruption, resumption, ranks.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -449,6 +450,30 @@ value = ["sin(x + y)", "x*y", "cos(2*x)"]
   EXPECT_EQ(levels[3]["status"], "interpolated");
   EXPECT_NEAR(levels[3]["orders"]["Q"]["l2"].get<double>(), 3, 0.1);
   EXPECT_NEAR(levels[3]["orders"]["Q"]["h1"].get<double>(), 2, 0.1);
+}
+
+TEST(Converge, TakesExactValuesHoweverDeepLongAndSharedTheyAre) {
+  // All entries are x, in 8000 parentheses, as halves of halves 2^24 times shared, and through 39 parameters of 4000 terms each.
+  std::string parameters = "h0 = \"x\"\ns0 = \"x\"\n", terms;
+  for (int i = 0; i < 4000; ++i) terms += " + 0*y";
+  for (int i = 1; i <= 24; ++i) parameters += fmt::format("h{0} = \"0.5*h{1} + 0.5*h{1}\"\n", i, i - 1);
+  for (int i = 1; i <= 39; ++i) parameters += fmt::format("s{} = \"s{}{}\"\n", i, i - 1, terms);
+  const Workshop shop;
+  shop.write("deep.toml", "[parameters]\n" + parameters + R"toml(
+[mesh]
+generate = "rectangle"
+cells = [2, 1]
+[fields.u]
+manifold = "R3"
+initial = ["x", "x", "x"]
+[exact.u]
+value = [")toml" + std::string(8000, '(') +
+                              "x" + std::string(8000, ')') + "\", \"h24\", \"s39\"]\n");
+  const Outcome o = shop.karcher("converge deep.toml --levels 1 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json level = json::parse(o.out)["levels"][0];
+  EXPECT_NEAR(level["errors"]["u"]["l2"].get<double>(), 0, 1e-14);
+  EXPECT_NEAR(level["errors"]["u"]["h1"].get<double>(), 0, 1e-14);
 }
 
 TEST(Check, FindsThatDerivativesAreRight) {

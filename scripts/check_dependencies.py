@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Proves that the rooms of the code use each other only in the direction of docs/architecture.md.
+"""Proves that the rooms of the code use each other only in the direction of docs/architecture.md, and that no code knows a manifold or an energy by its name.
 
-    scripts/check_dependencies.py [ROOT]      check the tree (default: the one that holds this script); exit code 1 if an include is wrong
-    scripts/check_dependencies.py --self-test check that the checker finds each kind of wrong include in a tree made for it
+    scripts/check_dependencies.py [ROOT]      check the tree (default: the one that holds this script); exit code 1 if something is wrong
+    scripts/check_dependencies.py --self-test check that the checker finds each kind of mistake in a tree made for it
 """
 import re
 import sys
@@ -22,7 +22,7 @@ USES = {
     "catalogue": ["assembly"],
     "solve": ["assembly"],
     "io": ["solve"],
-    "app": ["io", "catalogue"],
+    "app": ["io", "catalogue", "expression"],
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 
@@ -41,6 +41,30 @@ FOREIGN = [
     ("GoogleTest", r"gtest/|gmock/", r"include/karcher/testing/"),
     ("Google Benchmark", r"benchmark/", r"bench/"),
 ]
+
+# A name is for people: it stands where a manifold or an energy is entered, and code asks the type or ManifoldOps instead. Where names are entered (the folder, and
+# the text around them), by kind. Types of loads are common words, so their ending is looked for instead.
+ENTERED = {
+    "manifold": [(r"include/karcher/manifold/", r"string_view name\s*=([^;]*);")],
+    "energy": [(r"(include/karcher|src)/energy/", r"\btype\s*=\s*(\"[^\"]+\")")],
+}
+LOADS, LOAD_ENDING = {"volume", "traction", "line", "point"}, "-load"
+
+# Names that still stand elsewhere: file -> names, or COMPARED for the name of a ManifoldOps that is looked into.
+COMPARED = "name of a manifold"
+EXCEPTIONS = {
+    "src/assembly/catalogue.cpp": {"chiral-skyrmion", "cosserat-shell", "frank-oseen", "harmonic", "l2-distance", LOAD_ENDING},
+    "src/assembly/shell_term.cpp": {"cosserat-shell"},
+    "src/assembly/single_field_terms.hpp": {"harmonic", "l2-distance"},
+    "src/assembly/terms_director.cpp": {"chiral-skyrmion", "frank-oseen"},
+    "src/app/read_terms.cpp": {LOAD_ENDING},
+    "src/io/page_fields.cpp": {"frank-oseen", LOAD_ENDING},
+    "src/io/checkpoint.cpp": {COMPARED},  # the name in the file must be that of the field
+}
+
+TOKEN = re.compile(r'"((?:\\.|[^"\\\n])*)"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+OPS_NAME = r"\b(?:manifold\w*(?:\(\))?|ops|m|M)(?:->|\.|::)name\b"
+LOOKED_INTO = re.compile(rf"{OPS_NAME}\s*(?:==|!=|\.\w+\(|\[)|(?:==|!=)\s*[\w.>()\[\]*&-]*{OPS_NAME}")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 SUFFIXES = {".hpp", ".cpp", ".h", ".inc"}
@@ -117,13 +141,57 @@ def wrong_includes(root):
     return sentences
 
 
+def entered_names(root):
+    """Name -> what has it, of all manifolds and energies."""
+    names = {LOAD_ENDING: "load"}
+    for what, places in ENTERED.items():
+        for folder, text in places:
+            for path in sources(root):
+                if re.match(folder, str(path)):
+                    for match in re.finditer(text, (root / path).read_text()):
+                        names.update((name, what) for name in re.findall(r'"([^"]+)"', match.group(1)) if name not in LOADS)
+    return names
+
+
+def sources(root):
+    return [p.relative_to(root) for folder in ("include", "src") for p in sorted((root / folder).rglob("*")) if p.suffix in SUFFIXES]
+
+
+def known_by_name(root, exceptions):
+    """Sentences, one for each name of a manifold or an energy that code knows outside the place where it is entered, and for each exception that is not needed."""
+    names, sentences, used = entered_names(root), [], {path: set() for path in exceptions}
+    for path in sources(root):
+        text = (root / path).read_text()
+        found = [(m.start(), m.group(1)) for m in TOKEN.finditer(text) if m.group(1) in names]
+        code = TOKEN.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+        if room_of(path) != "manifold":
+            found += [(m.start(), COMPARED) for m in LOOKED_INTO.finditer(code)]
+        for at, name in sorted(found):
+            what = names.get(name)
+            if what and any(re.match(folder, str(path)) for folder, _ in ENTERED.get(what, ENTERED["energy"])):
+                continue
+            if name in exceptions.get(str(path), ()):
+                used[str(path)].add(name)
+                continue
+            place = f"{path}:{text.count(chr(10), 0, at) + 1}"
+            sentences.append(f"{place}: looks into the name of a manifold; ask its type or ManifoldOps." if name == COMPARED else
+                             f"{place}: knows the {what} \"{name}\" by its name; ask its type or its description instead.")
+    for path, allowed in exceptions.items():
+        sentences += [f"{path}: {name} does not stand there any more; take it out of EXCEPTIONS." for name in sorted(allowed - used[path])]
+    return sentences
+
+
 def self_test():
     """Every rule must object to its own violation and to nothing else."""
     good = {
         "include/karcher/error.hpp": "#pragma once\n",
         "include/karcher/version.hpp.in": "#pragma once\n",
         "include/karcher/math/tensor.hpp": '#include "karcher/error.hpp"\n#include "karcher/version.hpp"\n',
-        "include/karcher/manifold/sphere.hpp": '#include "karcher/math/tensor.hpp"\n',
+        "include/karcher/manifold/sphere.hpp": '#include "karcher/math/tensor.hpp"\nstatic constexpr std::string_view name = N == 1 ? "S1" : "S2";\n',
+        "src/energy/texts.cpp": 'info.type = "frank-oseen";\ninfo.type = "line";\n',
+        "src/manifold/table.cpp": "if (M::name == name) return;\n",
+        "src/app/words.cpp": '// name == "S2"\nf("a point of S2", "line", a.name == name);\ng(field.manifold->name, m.name);\n',
+        "src/io/known.cpp": 'if (type == "frank-oseen") draw();\n',
         "include/karcher/mesh/mesh.hpp": '#include "karcher/math/tensor.hpp"\n',
         "include/karcher/field/field.hpp": '#include "karcher/mesh/mesh.hpp"\n#include "karcher/manifold/sphere.hpp"\n',
         "include/karcher/testing/laws.hpp": '#include <gtest/gtest.h>\n#include "karcher/manifold/sphere.hpp"\n',
@@ -161,6 +229,14 @@ def self_test():
         ("include/karcher/bad.hpp", '#include "karcher/math/tensor.hpp"', "every room may use"),
         ("src/field/bad.cpp", '#include "karcher/karcher.hpp"', "front door"),
         ("src/kitchen/bad.cpp", "", "kitchen/ is no room"),
+        ("src/solve/bad.cpp", 'if (f.manifold->name == wanted) {}', "looks into the name"),
+        ("src/solve/bad.cpp", 'if (wanted != field.manifold->name) {}', "looks into the name"),
+        ("src/solve/bad.cpp", 'x = m.name.starts_with("R") ? 1 : 2;', "looks into the name"),
+        ("src/solve/bad.cpp", "x = field.manifold->name[0];", "looks into the name"),
+        ("src/io/bad.cpp", '// why\nif (stored == "S1") {}', "src/io/bad.cpp:2: knows the manifold"),
+        ("src/io/bad.cpp", 'draw(text == "frank-oseen");', 'knows the energy "frank-oseen"'),
+        ("src/io/bad.cpp", 'const bool load = term.ends_with("-load");', "knows the load"),
+        ("src/io/known.cpp", "", "frank-oseen does not stand there any more"),
     ]
     failures = []
     for extra in [None] + bad:
@@ -169,10 +245,10 @@ def self_test():
             for path, text in list(good.items()) + ([extra[:2]] if extra else []):
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text)
-            found = wrong_includes(root)
+            found = wrong_includes(root) + known_by_name(root, {"src/io/known.cpp": {"frank-oseen"}})
             if (extra is None and found) or (extra and not (len(found) == 1 and extra[2] in found[0])):
                 failures.append(f"{extra}: {found}")
-    print("\n".join(failures) or f"Self-test: {len(bad)} wrong includes found, a good tree accepted.")
+    print("\n".join(failures) or f"Self-test: {len(bad)} mistakes found, a good tree accepted.")
     return 1 if failures else 0
 
 
@@ -180,8 +256,8 @@ def main(arguments):
     if arguments == ["--self-test"]:
         return self_test()
     root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
-    found = wrong_includes(root)
-    print("\n".join(found) if found else "All includes point in the design's direction.")
+    found = wrong_includes(root) + known_by_name(root, EXCEPTIONS)
+    print("\n".join(found) if found else "All includes point in the design's direction, and no code knows a manifold or an energy by its name.")
     return 1 if found else 0
 
 

@@ -30,13 +30,8 @@
 #include "karcher/error.hpp"
 #include "karcher/interpolation/evaluator.hpp"
 #include "karcher/io/vtu.hpp"
-#include "karcher/manifold/euclidean.hpp"
-#include "karcher/manifold/hyperbolic.hpp"
+#include "karcher/manifold/every_manifold.hpp"
 #include "karcher/manifold/product.hpp"
-#include "karcher/manifold/rotation.hpp"
-#include "karcher/manifold/spd.hpp"
-#include "karcher/manifold/sphere.hpp"
-#include "karcher/manifold/unitary.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/gmsh.hpp"
 #include "karcher/mesh/partition.hpp"
@@ -62,7 +57,7 @@ class GeometricSpace {
   GeometricSpace(Mesh mesh, int order, Rule rule = HasProjection<M> ? Rule::projection : Rule::geodesic) {
     if (mesh.dim != D) throw InputError(fmt::format("The mesh has dimension {}, the space is one of maps of {}-dimensional domains.", mesh.dim, D));
     with_rule<M, D>(Field{"u", &manifold_ops<M>(), rule, nullptr}, []<class>() { return 0; });
-    register_evaluator(std::string(M::name), field_evaluator<M>());
+    register_evaluator(manifold_ops<M>(), field_evaluator<M>());
     const auto shared = std::make_shared<const Mesh>(std::move(mesh));
     field_ = {"u", &manifold_ops<M>(), rule, std::make_shared<const Space>(shared, shared->region("all"), order)};
   }

@@ -123,10 +123,10 @@ int list(const std::string& what) {
     for (const std::string& name : manifold_names()) {
       const ManifoldOps& m = manifold_by_name(name);
       fmt::print("{:<6} dimension {}, {} ambient coordinates, {}: {}\n", name, m.dim, m.ambient,
-                 name.starts_with("R") ? "linear"
-                 : m.has_projection    ? "projection or geodesic"
-                                       : "geodesic",
-                 manifold_description(name));
+                 m.linear           ? "linear"
+                 : m.has_projection ? "projection or geodesic"
+                                    : "geodesic",
+                 m.description);
     }
   } else if (what == "energies" || what == "loads") {
     if (what == "energies")

@@ -27,11 +27,11 @@ std::vector<double> random_step(const Model& model, double size, std::mt19937& r
   const double length = cell_size(*model.discretisation.mesh);
   for (std::size_t f = 0; f < model.fields().size(); ++f) {
     const Field& field = model.fields()[f];
-    const double scale = size * (field.manifold->name.starts_with("R") ? length : 1.0);
     for (int node = 0; node < field.space->node_count(); ++node) {
       const int first = model.layout->first_dof(static_cast<int>(f), node);
       for (int i = 0; i < field.manifold->dim && first >= 0; ++i)
-        if (!model.layout->fixed(first + i)) step[static_cast<std::size_t>(first + i)] = scale * uniform(random);
+        if (!model.layout->fixed(first + i))
+          step[static_cast<std::size_t>(first + i)] = size * (field.manifold->lengths[static_cast<std::size_t>(i)] ? length : 1.0) * uniform(random);
     }
   }
   return step;
@@ -128,7 +128,7 @@ int check(const CheckOptions& options) {
   fmt::print("fields\n");
   for (std::size_t i = 0; i < problem.fields.size(); ++i) {
     const FieldSpec& f = problem.fields[i];
-    const std::string rule = f.manifold->name.starts_with("R") ? "" : f.rule == Rule::projection ? ", projection" : ", geodesic";
+    const std::string rule = f.manifold->linear ? "" : f.rule == Rule::projection ? ", projection" : ", geodesic";
     long fixed = 0;
     for (const char c : model.discretisation.constraints.fixed()[i]) fixed += c != 0;
     const int nodes = model.fields()[i].space->node_count();

@@ -67,12 +67,12 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
         if (owner.spec >= 0) {
           for (const double t : {problem.continuation.from, problem.continuation.to}) {
             const std::vector<double> a = wanted(owner.spec, spec.field, node, t), b = wanted(static_cast<int>(k), spec.field, node, t);
-            const double distance = f.manifold->name.starts_with("R") ? std::abs(a[i] - b[i]) : f.manifold->dist(a.data(), b.data());
-            const double size = f.manifold->name.starts_with("R") ? 1 + std::abs(a[i]) : 1.0;
+            const double distance = f.manifold->linear ? std::abs(a[i] - b[i]) : f.manifold->dist(a.data(), b.data());
+            const double size = f.manifold->linear ? 1 + std::abs(a[i]) : 1.0;
             if (distance <= 1e-9 * size) continue;
             const DirichletSpec& other = specs_[static_cast<std::size_t>(owner.spec)];
             const Vec3<double>& x = f.space->position(node);
-            const int n = f.manifold->name.starts_with("R") ? 1 : f.manifold->ambient;
+            const int n = f.manifold->linear ? 1 : f.manifold->ambient;
             const std::size_t first = n == 1 ? i : 0;
             refuse(spec.place,
                    fmt::format("{} and {} ({}) give the field \"{}\" different values at ({}, {}, {}), t = {}: {} and {}.", spec.path, other.path,

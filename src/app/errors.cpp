@@ -36,8 +36,13 @@ FieldSample sample_field(const Field& field, const std::vector<double>& nodal_va
   FieldSample s;
   s.defined = at.defined;
   if (!at.defined) return s;
-  s.value = error_coordinates(m, at.value.data());
-  for (std::size_t a = 0; a < 3; ++a) s.d[a] = error_derivative(m, at.value.data(), at.d[a].data());
+  const auto size = static_cast<std::size_t>(m.error_size);
+  s.value.resize(size);
+  m.error_coordinates(at.value.data(), s.value.data());
+  for (std::size_t a = 0; a < 3; ++a) {
+    s.d[a].resize(size);
+    m.error_derivative(at.value.data(), at.d[a].data(), s.d[a].data());
+  }
   return s;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Distance of a discrete field to a known map: L2 norm and H1 seminorm of the difference, in the coordinates of error_coordinates().
+/// Distance of a discrete field to a known map: L2 norm and H1 seminorm of the difference, in the coordinates of ManifoldOps::error_coordinates.
 ///
 ///   l2^2 = int |u_h - u|^2,   h1^2 = int |grad_s (u_h - u)|^2   over the region of the field, by quadrature of degree 2 order + 10;
 /// grad_s is the gradient along the mesh's own (curved) cells.

@@ -16,9 +16,8 @@ namespace karcher::app {
 class PointValue {
  public:
   PointValue() = default;
-  /// \param value an array of numbers and expressions (one number where one is enough), or "identity" (SO3, SU2, SPD).
-  ///   R^n: n entries; S^n, SU2, H^n: ambient coordinates, projected; SO3: rotation vector (3), matrix by rows (9, projected), quaternion (4, w first);
-  ///   SPD(n): n*n entries by rows
+  /// \param value an array of numbers and expressions (one number where one is enough) as ManifoldOps::entries reads them: ambient coordinates, projected, or what
+  ///   else the manifold knows (rotation vectors); or "identity", if it has one
   /// \throws InputError for a wrong number of entries and whatever else is no point
   PointValue(const Value& value, const std::string& key, const ManifoldOps& manifold, const Scope& scope);
   /// Constant, in ambient coordinates.
@@ -31,8 +30,7 @@ class PointValue {
   const ManifoldOps& manifold() const { return *manifold_; }
   const std::vector<Expression>& entries() const { return entries_; }
 
-  /// Coordinates in the Euclidean space where errors are measured, with derivatives in x, y, z: see error_coordinates(). The entries are taken as they are, not
-  /// projected.
+  /// ManifoldOps::error_coordinates, with derivatives in x, y, z. The entries are taken as they are, not projected.
   std::vector<Dual<double, 3>> with_derivatives(const Vec3<double>& x, double t) const;
 
  private:
@@ -41,14 +39,5 @@ class PointValue {
   std::string key_;
   Place place_;
 };
-
-/// The point that a field has without initial values: 0, the identity, or the last axis of a sphere (first of a hyperboloid).
-std::vector<double> standard_point(const ManifoldOps& manifold);
-
-/// Errors are measured in Euclidean coordinates that induce the metric of the manifold: the ambient ones of R^n and S^n; rotations as matrices divided by sqrt 2
-/// (so that small distances are angles); SPD(n) and H^n in ambient coordinates.
-/// \param p, dp  ambient coordinates and one derivative of them
-std::vector<double> error_coordinates(const ManifoldOps& manifold, const double* p);
-std::vector<double> error_derivative(const ManifoldOps& manifold, const double* p, const double* dp);
 
 }  // namespace karcher::app

@@ -1,6 +1,5 @@
 #include "app/progress.hpp"
 #include "karcher/interpolation/evaluate.hpp"
-#include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/locate.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 
@@ -13,10 +12,11 @@ std::vector<double> quantity(const ProbeSpec& probe, const ManifoldOps& m, const
     for (std::size_t i = 0; i < u.size(); ++i) u[i] -= reference[static_cast<int>(i)];
     return u;
   }
-  if (m.name == "SO3" && probe.quantity != "value") {
-    const Quaternion<double> q{{value[0], value[1], value[2], value[3]}};
-    const Vec3<double> v = probe.quantity == "rotation-vector" ? Rotation::to_rotation_vector(q) : Rotation::director(q, probe.quantity.back() - '1');
-    return {v[0], v[1], v[2]};
+  for (const Quantity& q : m.quantities) {
+    if (q.name != probe.quantity) continue;
+    std::vector<double> v(static_cast<std::size_t>(q.components));
+    q.value(value.data(), v.data());
+    return v;
   }
   return value;
 }

@@ -171,7 +171,7 @@ class Reader {
       const std::string manifold = s.text("manifold");
       spec.manifold = &at_place(s.place("manifold"), [&]() -> const ManifoldOps& { return manifold_by_name(manifold); });
       spec.order = s.integer("order", 1, 1, 3);
-      const bool linear = spec.manifold->name.starts_with("R");
+      const bool linear = spec.manifold->linear;
       const std::string rule =
           s.word("interpolation", {"projection", "geodesic"}, spec.manifold->has_projection || linear ? "projection" : "geodesic");
       spec.rule = rule == "projection" ? Rule::projection : Rule::geodesic;
@@ -209,7 +209,7 @@ class Reader {
       FieldSpec& spec = problem_.fields[i];
       Section& s = field_sections_[i];
       const Value* v = s.raw("initial");
-      const bool linear = spec.manifold->name.starts_with("R");
+      const bool linear = spec.manifold->linear;
       const bool deforms = linear && is_deformation(static_cast<int>(i));
       if (v && v->is(Value::Kind::text) && v->text == "reference") {
         if (!linear) refuse(v->place, s.path("initial") + ": the reference position is no point of " + spec.manifold->name + ".");
@@ -224,9 +224,9 @@ class Reader {
         spec.initial_kind = InitialKind::reference;
         s.note("initial", Value::of("reference"));
       } else {
-        spec.initial = PointValue::constant(standard_point(*spec.manifold), s.path("initial"), *spec.manifold);
+        spec.initial = PointValue::constant(spec.manifold->standard_point, s.path("initial"), *spec.manifold);
         std::vector<Value> items;
-        for (const double x : standard_point(*spec.manifold)) items.push_back(Value::of(x));
+        for (const double x : spec.manifold->standard_point) items.push_back(Value::of(x));
         s.note("initial", Value::of(items));
       }
       all.append(spec.name, {}, s.resolved());
@@ -266,20 +266,20 @@ class Reader {
       const auto known = problem_.exact.find(spec.field);
       if (known == problem_.exact.end()) refuse(v->place, key + " is \"exact\", but the field has no [exact] value.");
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
-      if (m.name.starts_with("R"))
+      if (m.linear)
         spec.entries = known->second.entries();
       else
         spec.point = known->second;
     } else if (v->is(Value::Kind::table)) {
       spec.components = axis_free(*v, key, m);
-    } else if (m.name.starts_with("R")) {
+    } else if (m.linear) {
       linear_components(spec, *v, key, m);
     } else {
       if (v->is(Value::Kind::array))
         for (const Value& item : v->items)
           if (item.is(Value::Kind::text) && (item.text == "free" || item.text == "initial"))
             refuse(item.place, key + ": components of a point of " + m.name + " cannot be \"" + item.text + "\"; fix the whole point" +
-                                   (m.name == "SO3" ? ", or leave an axis free: value = {axis-free = \"e3\"}." : "."));
+                                   (m.body_axes ? ", or leave an axis free: value = {axis-free = \"e3\"}." : "."));
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
       spec.point = PointValue(*v, key, m, problem_.scope);
     }
@@ -301,12 +301,12 @@ class Reader {
       refuse(v.place, key + " leaves every component free.");
   }
 
-  /// Tangent coordinates of SO(3) are the body rotation vector: with the axis e_k of the body free, a step turns about d_k, which stays where it is.
+  /// Tangent coordinates are the body rotation vector: with the axis e_k of the body free, a step turns about d_k, which stays where it is.
   std::vector<DirichletSpec::Component> axis_free(const Value& v, const std::string& key, const ManifoldOps& m) const {
     using Component = DirichletSpec::Component;
     Section s(&v, key, v.place, {"axis-free"});
     const std::string axis = s.word("axis-free", {"e1", "e2", "e3"});
-    if (m.name != "SO3") refuse(v.place, key + ": axis-free is for rotations (SO3), not for " + m.name + ".");
+    if (!m.body_axes) refuse(v.place, key + ": axis-free is for rotations (SO3), not for " + m.name + ".");
     std::vector<Component> components(3, Component::initial);
     components[static_cast<std::size_t>(axis[1] - '1')] = Component::free;
     return components;
@@ -378,8 +378,8 @@ class Reader {
       for (int i = 0; i < 3; ++i) spec.at[i] = at[static_cast<std::size_t>(i)];
       const ManifoldOps& m = *problem_.fields[static_cast<std::size_t>(spec.field)].manifold;
       std::vector<std::string> quantities{"value"};
-      if (m.name.starts_with("R")) quantities.push_back("displacement");
-      if (m.name == "SO3") quantities.insert(quantities.end(), {"rotation-vector", "director1", "director2", "director3"});
+      if (m.linear) quantities.push_back("displacement");
+      for (const Quantity& q : m.quantities) quantities.push_back(q.name);
       spec.quantity = s.word("quantity", quantities, "value");
       if (s.has("at")) spec.place = s.place("at");
       problem_.probes.push_back(spec);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "app/section.hpp"
 #include "karcher/text.hpp"
 

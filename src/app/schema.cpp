@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "karcher/manifold/any_manifold.hpp"
+#include "karcher/text.hpp"
+
 namespace karcher::app {
 
 const std::vector<SectionInfo>& schema() {
@@ -50,7 +53,7 @@ const std::vector<SectionInfo>& schema() {
       {"fields",
        "[fields.NAME]",
        "A map from a region into a manifold. Manifolds: karcher list manifolds",
-       {{"manifold", "name", "-", "R1 R2 R3 S1 S2 S3 SO3 SU2 SPD2 SPD3 H2 H3"},
+       {{"manifold", "name", "-", join_names(manifold_names(), " ")},
         {"order", "1..3", "1", "Lagrange order"},
         {"interpolation", "projection or geodesic", "projection where the manifold has it, else geodesic",
          "rule that makes a function of nodal values; without meaning for R^n"},

@@ -157,7 +157,7 @@ class ShellTerm final : public Term {
       throw InputError(
           fmt::format("A cosserat-shell lives on a surface, but region \"{}\" has dimension {}.", input_.region.name, input_.region.dim));
     constexpr std::array<const char*, 2> slots{"deformation", "rotation"};
-    const std::array<const ManifoldOps*, 2> manifolds{&manifold_ops<Euclidean<3>>(), &manifold_ops<Rotation>()};
+    const std::array manifolds{&manifold_ops<Euclidean<3>>(), &manifold_ops<Rotation>()};
     for (std::size_t slot = 0; slot < 2; ++slot)
       if (field(slot).manifold != manifolds[slot])
         throw InputError(fmt::format("cosserat-shell: the field \"{}\" given as {} has values in {}; it must have values in {}.", field(slot).name,

@@ -15,7 +15,7 @@ namespace karcher {
   namespace catalogue {                \
   std::vector<Entry> name##_entries(); \
   }
-#include "catalogue_sources.inc"
+#include "catalogue_entries.inc"
 #undef KARCHER_ENTRIES
 
 namespace {
@@ -27,7 +27,7 @@ const std::vector<catalogue::Entry>& entries() {
       for (catalogue::Entry& e : more) list.push_back(std::move(e));
     };
 #define KARCHER_ENTRIES(name) append(catalogue::name##_entries());
-#include "catalogue_sources.inc"
+#include "catalogue_entries.inc"
 #undef KARCHER_ENTRIES
     return list;
   }();

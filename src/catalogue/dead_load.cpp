@@ -4,9 +4,6 @@
 
 namespace karcher::catalogue {
 
-/// Where a force density can act: manifolds whose points are vectors.
-using Loaded = ManifoldList<Euclidean<1>, Euclidean<2>, Euclidean<3>, Sphere<1>, Sphere<2>, Sphere<3>>;
-
 template <class M>
 std::unique_ptr<Term> dead_load_term(const EnergyInfo& info, const TermInput& input);
 
@@ -20,7 +17,7 @@ namespace karcher::catalogue {
 
 template <class M>
 std::unique_ptr<Term> dead_load_term(const EnergyInfo& info, const TermInput& input) {
-  if constexpr (Loaded::has<M>)
+  if constexpr (LoadManifold::has<M>)
     return value_term<DeadLoadOn<M>::template Density, M>(info, input);
   else
     return nullptr;
@@ -41,11 +38,11 @@ std::vector<Entry> dead_load_entries() {
     info.load = true;
     info.description = description;
     info.dimensions = std::move(dimensions);
-    info.fields = {{"field", accepted(Loaded{}), "the field on which the load works"}};
+    info.fields = {{"field", accepted(LoadManifold{}), "the field on which the load works"}};
     info.parameters = {
         {.name = "value", .unit = unit, .description = "load in ambient coordinates of the field", .default_value = {}, .size = Parameter::ambient}};
     entries.push_back({info, [](const EnergyInfo& entry, const TermInput& input) {
-                         return of_manifolds(Loaded{}, input, [&]<class M>() { return dead_load_term<M>(entry, input); });
+                         return of_manifolds(LoadManifold{}, input, [&]<class M>() { return dead_load_term<M>(entry, input); });
                        }});
   };
   add("volume", {1, 2, 3}, "force/measure", "Dead load per reference volume (per area of a shell, per length of a rod): - int f.u");

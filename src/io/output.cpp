@@ -46,20 +46,14 @@ double measure_of(const ReferenceGeometry& reference, const Cell& cell) {
   return measure;
 }
 
-/// d_k = q e_k q^-1 for the unit quaternion q = (w, x, y, z): the columns of the rotation matrix, one after the other.
-std::array<double, 9> directors(const double* q) {
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
-  return {w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y), 2 * (x * y - w * z),          w * w - x * x + y * y - z * z,
-          2 * (y * z + w * x),           2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z};
-}
-
 /// A cell that has an output node, and the node's number there.
 struct Place {
   int cell = -1, local = 0;
 };
 
-bool is_rotation(const ManifoldOps& m) { return m.name == "SO3"; }
-bool is_euclidean(const ManifoldOps& m) { return m.name.size() == 2 && m.name[0] == 'R'; }
+bool has_array(const Field& field, const std::string& name) {
+  return std::ranges::any_of(field.manifold->arrays, [&](const Quantity& q) { return q.name == name; });
+}
 
 }  // namespace
 
@@ -226,7 +220,6 @@ std::vector<double> nodal_values(const Field& field, int field_index, const std:
 }  // namespace
 
 std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const double> energies) const {
-  const auto rotations = std::count_if(model_.fields.begin(), model_.fields.end(), [](const Field& f) { return is_rotation(*f.manifold); });
   std::vector<std::string> columns;
   for (std::size_t t = 0; t < model_.terms.size(); ++t) {
     columns.push_back(model_.terms[t]);
@@ -248,7 +241,7 @@ std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const d
       const Field& field = model_.fields[static_cast<std::size_t>(carried.field)];
       const int ambient = field.manifold->ambient;
       std::vector<double> values = nodal_values(field, carried.field, carried.cell_nodes, part->place, *part->space, u);
-      if (carried.field == model_.deformation && is_euclidean(*field.manifold)) {
+      if (carried.field == model_.deformation && field.manifold->linear && ambient <= 3) {
         std::vector<double> reference, displacement;
         for (std::size_t n = 0; n < nodes; ++n) {
           Vec3<double> m = part->reference[n];  // coordinates that the field does not have stay where they are
@@ -262,15 +255,12 @@ std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const d
         o.point_data.push_back({"displacement", 3, std::move(displacement)});
         o.point_data.push_back({"reference", 3, std::move(reference)});
       }
-      if (is_rotation(*field.manifold)) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          std::vector<double> director;
-          for (std::size_t n = 0; n < nodes; ++n) {
-            const std::array<double, 9> d = directors(values.data() + 4 * n);
-            director.insert(director.end(), d.begin() + static_cast<std::ptrdiff_t>(3 * k), d.begin() + static_cast<std::ptrdiff_t>(3 * k + 3));
-          }
-          o.point_data.push_back({(rotations > 1 ? field.name + "." : std::string()) + "director" + std::to_string(k + 1), 3, std::move(director)});
-        }
+      for (const Quantity& q : field.manifold->arrays) {
+        const auto size = static_cast<std::size_t>(q.components);
+        std::vector<double> numbers(size * nodes);
+        for (std::size_t n = 0; n < nodes; ++n) q.value(&values[n * static_cast<std::size_t>(ambient)], &numbers[n * size]);
+        const auto fields = std::ranges::count_if(model_.fields, [&](const Field& f) { return has_array(f, q.name); });
+        o.point_data.push_back({(fields > 1 ? field.name + "." : std::string()) + q.name, q.components, std::move(numbers)});
       }
       o.point_data.push_back({field.name, ambient, std::move(values)});
     }

@@ -137,15 +137,15 @@ void write_page(const std::filesystem::path& directory, const PageLimits& limits
   PageArrays arrays;
   json shape;
   if (!store.states.empty()) {
-    const std::string curve_in = draw_as_curves(store);
+    const Drawing* curve = draw_as_curves(store);
     const std::vector<int> states = thinned(store.states.size(), limits.states);
     if (states.size() < store.states.size()) notes.push_back(fmt::format("The page shows {} of {} states.", states.size(), store.states.size()));
     const PageShape cut = page_shape(store, states, limits.triangles);
     if (!cut.note.empty()) notes.push_back(cut.note);
     if (!cut.vertices.empty())
       shape = shape_header(store, states, cut, std::max(limits.glyphs, limits.glyph_values / static_cast<int>(states.size())), arrays);
-    if (!curve_in.empty() && !shape.is_null()) shape["start"]["field"] = "";  // where the curve is tells its values
-    if (curve_in == "S2" && !shape.is_null()) shape["sphere"] = true;
+    if (curve && !shape.is_null()) shape["start"]["field"] = "";  // where the curve is tells its values
+    if (curve && curve->sphere && !shape.is_null()) shape["sphere"] = true;
   }
   if (store.cut_off) notes.push_back("The last stored state was cut off when the program ended, so it is missing here.");
 

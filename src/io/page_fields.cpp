@@ -272,90 +272,125 @@ void add_energies(const Store& store, Fields& fields) {
   }
 }
 
-void normalised(const double* in, int n, double* out) {
-  double square = 0;
-  for (int i = 0; i < n; ++i) square += in[i] * in[i];
-  const double scale = square > 0 ? 1 / std::sqrt(square) : 0;
-  for (int i = 0; i < 3; ++i) out[i] = i < n ? scale * in[i] : 0;
+/// The vector of an arrow or a rod.
+template <class T>
+Vec3<double> vector_of(const Drawing& drawing, const T* in) {
+  Vec3<double> v{};
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, drawing.coordinates.size()); ++c) v[static_cast<int>(c)] = in[drawing.coordinates[c]];
+  return v;
 }
 
-/// Names of the arrays of a rotation's columns (output.hpp).
+/// Names of the arrays of a frame's axes.
 std::vector<std::string> directors_of(const Store& store, const std::string& field) {
-  const auto rotations = std::count_if(store.manifolds.begin(), store.manifolds.end(), [](const auto& f) { return f.second == "SO3"; });
-  const std::string prefix = rotations > 1 ? field + "." : "";
+  const auto frames = std::count_if(store.drawings.begin(), store.drawings.end(), [](const auto& d) { return d.second.directors; });
+  const std::string prefix = frames > 1 ? field + "." : "";
   return {prefix + "director1", prefix + "director2", prefix + "director3"};
 }
 
-void add_field(const Store& store, const std::string& name, const std::string& manifold, int most_glyphs, Fields& fields) {
-  const auto components = [&](int n) {
-    for (int c = 0; c < n; ++c)
-      fields.add_vertex_field(fmt::format("{}.{}", name, c + 1), fmt::format("{}, component {}", name, c + 1), "scalar", {name},
+/// A field that is to be shown.
+struct Shown {
+  const Store& store;
+  const std::string& name;
+  const Drawing& drawing;
+  int components;  ///< stored ambient coordinates
+  int most_glyphs;
+  Fields& fields;
+
+  bool moves() const { return !store.deformation.empty(); }
+  /// What the page begins with, unless a deformation is more to look at.
+  void begin_with(const std::string& field, const std::string& glyphs) const {
+    if (moves()) return;
+    fields.first_field = field;
+    fields.first_glyphs = glyphs;
+  }
+};
+
+void add_components(const Shown& s) {
+  for (int c = 0; c < std::min(s.components, 9); ++c)
+    s.fields.add_vertex_field(fmt::format("{}.{}", s.name, c + 1), fmt::format("{}, component {}", s.name, c + 1), "scalar", {s.name},
                               [c](const double* in, double* out) { out[0] = in[c]; });
-  };
-  if (manifold == "SO3" || manifold == "SU2") {
-    const bool triad = manifold == "SO3";
-    // The store has (w, x, y, z), the page wants (x, y, z, w).
-    fields.add_glyphs(triad ? "directors of " + name : "frame of " + name, "frame", name, 4, most_glyphs, [](const float* in, double* out) {
-      for (int c = 0; c < 4; ++c) out[c] = in[(c + 1) % 4];
-    });
-    if (store.deformation.empty()) {  // triads are read most easily on a plain ground
-      fields.first_field.clear();
-      fields.first_glyphs = fields.glyphs.empty() ? "" : fields.glyphs.back()["name"];
+}
+
+void add_frames(const Shown& s) {
+  const std::vector<int>& from = s.drawing.coordinates;
+  s.fields.add_glyphs(s.drawing.directors ? "directors of " + s.name : "frame of " + s.name, "frame", s.name, 4, s.most_glyphs,
+                      [&](const float* in, double* out) {
+                        for (std::size_t c = 0; c < 4; ++c) out[c] = in[from[c]];
+                      });
+  s.begin_with("", s.fields.glyphs.empty() ? "" : s.fields.glyphs.back()["name"]);  // triads are read most easily on a plain ground
+  if (s.drawing.components) add_components(s);
+  if (s.drawing.directors)
+    s.fields.add_vertex_field(s.name + ".angle", "rotation angle of " + s.name + " in degrees", "scalar", directors_of(s.store, s.name),
+                              [](const double* r, double* out) {
+                                // r: the columns of the matrix. 2 sin of the angle is the length of the axial vector of R - R^T, 2 cos is the trace less 1.
+                                const double x = r[5] - r[7], y = r[6] - r[2], z = r[1] - r[3];
+                                out[0] = std::atan2(std::sqrt(x * x + y * y + z * z), r[0] + r[4] + r[8] - 1) * degree;
+                              });
+}
+
+void add_vectors(const Shown& s) {
+  s.fields.add_vertex_field(s.name, s.name + " as colour", "direction", {s.name}, [&](const double* in, double* out) {
+    const Vec3<double> v = vector_of(s.drawing, in);
+    const double square = norm2(v), scale = square > 0 ? 1 / std::sqrt(square) : 0;
+    for (int c = 0; c < 3; ++c) out[c] = scale * v[c];
+  });
+  const bool nematic = std::any_of(s.store.terms.begin(), s.store.terms.end(), [](const std::string& t) { return t.rfind("frank-oseen", 0) == 0; });
+  const bool rod = nematic || s.drawing.glyph == Glyph::rod;
+  s.fields.add_glyphs(s.name, rod ? "rod" : "arrow", s.name, 3, s.most_glyphs, [&](const float* in, double* out) {
+    const Vec3<double> v = vector_of(s.drawing, in);
+    std::copy_n(v.e.begin(), 3, out);
+  });
+  const bool on_curves = std::all_of(s.store.parts.begin(), s.store.parts.end(), [](const StoredPart& p) { return p.dim == 1; });
+  s.begin_with(s.name, on_curves ? s.fields.first_glyphs : s.name);
+  if (s.drawing.components) add_components(s);
+}
+
+void add_ellipsoids(const Shown& s) {
+  const std::vector<int>& from = s.drawing.coordinates;
+  const bool flat = from.size() == 3;
+  s.fields.add_glyphs(s.name, "ellipsoid", s.name, 6, s.most_glyphs, [&](const float* in, double* out) {
+    if (!flat) {
+      for (std::size_t c = 0; c < 6; ++c) out[c] = in[from[c]];
+    } else {  // as thick as a twentieth of its mean width
+      const float xx = in[from[0]], yy = in[from[1]], xy = in[from[2]];
+      const double matrix[] = {xx, yy, 0.0025 * 0.5 * (static_cast<double>(xx) + static_cast<double>(yy)), xy, 0, 0};
+      std::copy_n(matrix, 6, out);
     }
-    if (!triad) return components(4);
-    fields.add_vertex_field(name + ".angle", "rotation angle of " + name + " in degrees", "scalar", directors_of(store, name),
-                            [](const double* r, double* out) {
-                              // r: the columns of the matrix. 2 sin of the angle is the length of the axial vector of R - R^T, 2 cos is the trace less 1.
-                              const double x = r[5] - r[7], y = r[6] - r[2], z = r[1] - r[3];
-                              out[0] = std::atan2(std::sqrt(x * x + y * y + z * z), r[0] + r[4] + r[8] - 1) * degree;
-                            });
-  } else if (manifold == "S1" || manifold == "S2") {
-    const int n = manifold == "S1" ? 2 : 3;
-    fields.add_vertex_field(name, name + " as colour", "direction", {name}, [n](const double* in, double* out) { normalised(in, n, out); });
-    const bool on_curves = std::all_of(store.parts.begin(), store.parts.end(), [](const StoredPart& p) { return p.dim == 1; });
-    const bool nematic = std::any_of(store.terms.begin(), store.terms.end(), [](const std::string& t) { return t.rfind("frank-oseen", 0) == 0; });
-    fields.add_glyphs(name, nematic ? "rod" : "arrow", name, 3, most_glyphs, [n](const float* in, double* out) {
-      for (int c = 0; c < 3; ++c) out[c] = c < n ? static_cast<double>(in[c]) : 0;
-    });
-    if (store.deformation.empty()) {
-      fields.first_field = name;
-      if (!on_curves) fields.first_glyphs = name;
-    }
-    components(n);
-  } else if (manifold == "SPD2" || manifold == "SPD3") {
-    const int n = manifold == "SPD2" ? 2 : 3;
-    fields.add_glyphs(name, "ellipsoid", name, 6, most_glyphs, [n](const float* in, double* out) {
-      if (n == 3) {
-        const int entry[] = {0, 4, 8, 1, 2, 5};
-        for (int c = 0; c < 6; ++c) out[c] = in[entry[c]];
-      } else {  // a flat ellipsoid, as thick as a twentieth of its mean width
-        const double thin = 0.0025 * 0.5 * (static_cast<double>(in[0]) + static_cast<double>(in[3]));
-        const double flat[] = {in[0], in[3], thin, in[1], 0, 0};
-        std::copy_n(flat, 6, out);
-      }
-    });
-    fields.add_vertex_field(name + ".trace", "trace of " + name, "scalar", {name},
-                            [n](const double* in, double* out) { out[0] = n == 2 ? in[0] + in[3] : in[0] + in[4] + in[8]; });
-    if (store.deformation.empty()) {
-      fields.first_field.clear();
-      fields.first_glyphs = name;
-    }
-  } else if (manifold.size() == 2 && manifold[0] == 'R') {
-    const int n = manifold[1] - '0';
-    if (name == store.deformation) return;
-    if (n == 1)
-      fields.add_vertex_field(name, name, "scalar", {name}, [](const double* in, double* out) { out[0] = in[0]; });
-    else
-      components(n);
-    if (store.deformation.empty() && (n == 1 || fields.first_field.empty())) fields.first_field = n == 1 ? name : name + ".1";
-  } else {
-    const int n = [&] {
-      for (const StoredPart& p : store.parts)
-        if (const int k = index_of(p.point_data, name); k >= 0) return p.point_data[static_cast<std::size_t>(k)].components;
-      return 0;
-    }();
-    components(std::min(n, 9));
-    if (fields.first_field.empty() && n > 0) fields.first_field = name + ".1";
+  });
+  s.fields.add_vertex_field(s.name + ".trace", "trace of " + s.name, "scalar", {s.name}, [&](const double* in, double* out) {
+    out[0] = in[from[0]] + in[from[1]];
+    if (!flat) out[0] += in[from[2]];
+  });
+  s.begin_with("", s.name);
+  if (s.drawing.components) add_components(s);
+}
+
+void add_numbers(const Shown& s) {
+  if (s.name == s.store.deformation) return;
+  const bool single = s.drawing.place && s.components == 1;
+  if (single)
+    s.fields.add_vertex_field(s.name, s.name, "scalar", {s.name}, [](const double* in, double* out) { out[0] = in[0]; });
+  else if (s.drawing.components)
+    add_components(s);
+  if (s.drawing.place ? !s.moves() && (single || s.fields.first_field.empty()) : s.fields.first_field.empty() && s.components > 0)
+    s.fields.first_field = single ? s.name : s.name + ".1";
+}
+
+void add_field(const Store& store, const std::string& name, const Drawing& drawing, int most_glyphs, Fields& fields) {
+  int components = 0;
+  for (const StoredPart& p : store.parts)
+    if (const int k = index_of(p.point_data, name); components == 0 && k >= 0) components = p.point_data[static_cast<std::size_t>(k)].components;
+  const Shown shown{store, name, drawing, components, most_glyphs, fields};
+  switch (drawing.glyph) {
+    case Glyph::none:
+      return add_numbers(shown);
+    case Glyph::arrow:
+    case Glyph::rod:
+      return add_vectors(shown);
+    case Glyph::frame:
+      return add_frames(shown);
+    case Glyph::ellipsoid:
+      return add_ellipsoids(shown);
   }
 }
 
@@ -426,22 +461,21 @@ json shape_header(const Store& store, const std::vector<int>& states, const Page
       return std::any_of(store.parts.begin(), store.parts.end(),
                          [&](const StoredPart& p) { return p.dim == 2 && index_of(p.point_data, name) >= 0; });
     };
-    for (const auto& [name, manifold] : store.manifolds) {
+    for (const auto& [name, drawing] : store.drawings) {
       if (!on_surface(name)) continue;
-      if (manifold == "SO3")
+      if (drawing.directors)
         fields.add_normal_angle("angle of the director Q n₀ to the surface normal, in degrees", directors_of(store, name),
                                 [](const double* r, const Vec3<double>& n) {
                                   Vec3<double> d{};
                                   for (int i = 0; i < 3; ++i) d[i] = r[i] * n[0] + r[3 + i] * n[1] + r[6 + i] * n[2];
                                   return d;
                                 });
-      if (manifold == "S2")
-        fields.add_normal_angle(fmt::format("angle of {} to the surface normal, in degrees", name), {name}, [](const double* d, const Vec3<double>&) {
-          return Vec3<double>{{d[0], d[1], d[2]}};
-        });
+      if ((drawing.glyph == Glyph::arrow || drawing.glyph == Glyph::rod) && drawing.coordinates.size() == 3)
+        fields.add_normal_angle(fmt::format("angle of {} to the surface normal, in degrees", name), {name},
+                                [&](const double* in, const Vec3<double>&) { return vector_of(drawing, in); });
     }
   }
-  for (const auto& [name, manifold] : store.manifolds) add_field(store, name, manifold, most_glyphs, fields);
+  for (const auto& [name, drawing] : store.drawings) add_field(store, name, drawing, most_glyphs, fields);
   if (fields.first_field.empty() && fields.first_glyphs.empty() && moves) fields.first_field = "displacement";
   out["fields"] = std::move(fields.list);
   out["glyphs"] = std::move(fields.glyphs);

@@ -59,11 +59,33 @@ std::vector<StoredArray> read_list(const json& list) {
   return out;
 }
 
+json written_drawing(const Drawing& d) {
+  return {{"glyph", static_cast<int>(d.glyph)},
+          {"coordinates", d.coordinates},
+          {"components", d.components},
+          {"place", d.place},
+          {"sphere", d.sphere},
+          {"directors", d.directors}};
+}
+
+Drawing read_drawing(const json& j) {
+  const int glyph = j.at("glyph");
+  if (glyph < 0 || glyph > static_cast<int>(Glyph::ellipsoid)) throw InputError("unknown glyph");
+  return {.glyph = static_cast<Glyph>(glyph),
+          .coordinates = j.at("coordinates"),
+          .components = j.at("components"),
+          .place = j.at("place"),
+          .sphere = j.at("sphere"),
+          .directors = j.at("directors")};
+}
+
 void read_description(const json& j, BinaryReader& reader, Store& store) {
   if (!store.parts.empty() || !store.states.empty()) throw InputError("the states before are of other parts");
   store.machine = j.at("machine");
   store.deformation = j.at("deformation");
-  for (const auto& [name, manifold] : j.at("manifolds").items()) store.manifolds[name] = manifold;
+  const bool by_name = j.contains("manifolds");  // a description may name the manifold, which has the drawing
+  for (const auto& [name, drawing] : j.at(by_name ? "manifolds" : "drawings").items())
+    store.drawings[name] = by_name ? manifold_by_name(drawing).drawing : read_drawing(drawing);
   for (const json& term : j.at("terms")) store.terms.push_back(term);
   for (const json& p : j.at("parts")) {
     StoredPart part;
@@ -84,6 +106,9 @@ void read_description(const json& j, BinaryReader& reader, Store& store) {
         c.nodes.push_back(static_cast<int>(n));
       }
     part.reference = reader.numbers<float>(part.points, 3);
+    for (const StoredArray& a : part.point_data)
+      if (const auto found = store.drawings.find(a.name); found != store.drawings.end() && !found->second.complaint(a.components).empty())
+        throw InputError("unknown coordinate");
     store.parts.push_back(std::move(part));
   }
 }
@@ -172,15 +197,13 @@ Store read_store(const std::filesystem::path& file) {
   return store;
 }
 
-std::string draw_as_curves(Store& store) {
-  if (!store.deformation.empty() || store.states.empty() || store.parts.size() != 1 || store.parts[0].dim != 1) return {};
+const Drawing* draw_as_curves(Store& store) {
+  if (!store.deformation.empty() || store.states.empty() || store.parts.size() != 1 || store.parts[0].dim != 1) return nullptr;
   StoredPart& part = store.parts[0];
   for (std::size_t k = 0; k < part.point_data.size(); ++k) {
-    const auto found = store.manifolds.find(part.point_data[k].name);
-    if (found == store.manifolds.end()) continue;
-    const std::string& manifold = found->second;
-    if (manifold != "S1" && manifold != "S2" && manifold != "R2" && manifold != "R3") continue;
+    const auto found = store.drawings.find(part.point_data[k].name);
     const auto n = static_cast<std::size_t>(part.point_data[k].components);
+    if (found == store.drawings.end() || !found->second.place || n < 2 || n > 3) continue;
     part.reference.assign(3 * part.points, 0.0F);
     for (std::size_t i = 0; i < part.points; ++i)
       for (std::size_t c = 0; c < n; ++c) part.reference[3 * i + c] = store.states[0].parts[0].point_data[k][n * i + c];
@@ -191,16 +214,16 @@ std::string draw_as_curves(Store& store) {
         for (std::size_t c = 0; c < n; ++c) values.displacement[3 * i + c] = values.point_data[k][n * i + c] - part.reference[3 * i + c];
     }
     part.moves = true;
-    return manifold;
+    return &found->second;
   }
-  return {};
+  return nullptr;
 }
 
 PageStates::PageStates(std::filesystem::path directory, const OutputModel& model, int first_state) : file_(std::move(directory) / "report.data") {
-  json manifolds = json::object();
-  for (const Field& f : model.fields) manifolds[f.name] = f.manifold->name;
+  json drawings = json::object();
+  for (const Field& f : model.fields) drawings[f.name] = written_drawing(f.manifold->drawing);
   const std::string deformation = model.deformation >= 0 ? model.fields[static_cast<std::size_t>(model.deformation)].name : std::string();
-  description_ = json{{"machine", machine_sentence()}, {"deformation", deformation}, {"manifolds", manifolds}, {"terms", model.terms}}.dump();
+  description_ = json{{"machine", machine_sentence()}, {"deformation", deformation}, {"drawings", drawings}, {"terms", model.terms}}.dump();
   std::string kept(store_magic);
   if (first_state > 0 && std::filesystem::exists(file_)) {
     const std::string content = read_whole(file_);

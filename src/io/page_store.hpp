@@ -47,7 +47,7 @@ struct StoredState {
 
 struct Store {
   std::string machine;
-  std::map<std::string, std::string> manifolds;  ///< field -> name of its manifold
+  std::map<std::string, Drawing> drawings;  ///< of the fields
   std::vector<std::string> terms;
   std::string deformation;  ///< name of the field that moves the points; empty if there is none
   std::vector<StoredPart> parts;
@@ -56,9 +56,9 @@ struct Store {
   bool cut_off = false;
 };
 
-/// A map from an interval into S^1, S^2, R^2 or R^3 is seen best as the curve it is: where a Store has curves only and nothing moves them, such a field moves
-/// them from its place at the first state. Returns the manifold, empty if there is nothing of the kind.
-std::string draw_as_curves(Store& store);
+/// A map from an interval into a plane or into space (Drawing::place) is seen best as the curve it is: where a Store has curves only and nothing moves them, such
+/// a field moves them from its place at the first state. Returns its drawing, null if there is nothing of the kind.
+const Drawing* draw_as_curves(Store& store);
 
 /// \throws InputError if the file is there and is not of this format. A file that is missing, or whose first record is cut off, gives a Store without parts.
 Store read_store(const std::filesystem::path& file);

@@ -77,11 +77,13 @@ std::vector<double> step_mass(const Layout& layout) {
     const Field& field = layout.fields()[f];
     std::vector<double> nodal = lumped_mass(*field.space);
     const double measure = std::accumulate(nodal.begin(), nodal.end(), 0.0);
-    const double length = field.manifold->name.starts_with("R") ? length_of(field.space->mesh()) : 1.0;
+    const double size = length_of(field.space->mesh());
     for (int node : layout.local_nodes(static_cast<int>(f)))
-      for (int k = 0; k < field.manifold->dim; ++k)
+      for (int k = 0; k < field.manifold->dim; ++k) {
+        const double length = field.manifold->lengths[static_cast<std::size_t>(k)] ? size : 1.0;
         mass[static_cast<std::size_t>(layout.first_dof(static_cast<int>(f), node) + k)] =
             nodal[static_cast<std::size_t>(node)] / (measure * length * length);
+      }
   }
   return mass;
 }

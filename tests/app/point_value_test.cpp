@@ -22,6 +22,12 @@ std::vector<double> point(const char* manifold, const Value& value) {
   return p;
 }
 
+std::vector<double> error_coordinates_of(const ManifoldOps& m, const std::vector<double>& p) {
+  std::vector<double> x(static_cast<std::size_t>(m.error_size));
+  m.error_coordinates(p.data(), x.data());
+  return x;
+}
+
 TEST(PointValue, SpheresAreNormalised) {
   const std::vector<double> p = point("S2", array({0, 3, 4}));
   EXPECT_NEAR(p[0], 0, 1e-15);
@@ -71,7 +77,9 @@ TEST(PointValue, DerivativesOfARotationVectorAreThoseOfTheMatrix) {
     value.evaluate(x, 0, middle.data());
     std::vector<double> slope(4);
     for (std::size_t i = 0; i < 4; ++i) slope[i] = (p[i] - q[i]) / (2 * h);
-    const auto a = error_coordinates(m, middle.data()), b = error_derivative(m, middle.data(), slope.data());
+    const std::vector<double> a = error_coordinates_of(m, middle);
+    std::vector<double> b(9);
+    m.error_derivative(middle.data(), slope.data(), b.data());
     for (std::size_t i = 0; i < 9; ++i) {
       EXPECT_NEAR(exact[i].v, a[i], 1e-14);
       EXPECT_NEAR(exact[i].d[static_cast<std::size_t>(k)], b[i], 1e-9);
@@ -82,7 +90,7 @@ TEST(PointValue, DerivativesOfARotationVectorAreThoseOfTheMatrix) {
 TEST(PointValue, ErrorCoordinatesOfRotationsMeasureAngles) {
   const ManifoldOps& m = manifold_by_name("SO3");
   const std::vector<double> p = point("SO3", array({0.1, 0.2, 0.3})), q = point("SO3", array({0.1, 0.2, 0.3001}));
-  const auto a = error_coordinates(m, p.data()), b = error_coordinates(m, q.data());
+  const auto a = error_coordinates_of(m, p), b = error_coordinates_of(m, q);
   double d2 = 0;
   for (std::size_t i = 0; i < 9; ++i) d2 += (a[i] - b[i]) * (a[i] - b[i]);
   EXPECT_NEAR(std::sqrt(d2) / m.dist(p.data(), q.data()), 1, 1e-8);

@@ -18,6 +18,7 @@
 #include "io/page_store.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/manifold/sphere.hpp"
 #include "temporary_directory.hpp"
 
 namespace karcher {
@@ -417,6 +418,35 @@ TEST(Page, ShowsDisplacementsAngleToTheNormalAndDirectors) {
   EXPECT_NEAR(std::abs(q[3]), std::cos(angle / 2), 1e-4);
 }
 
+/// Lines through the origin as one of their two unit vectors, w first.
+struct Lines : Sphere<2> {
+  static constexpr std::string_view name = "lines";
+  static Drawing drawing() { return {.glyph = Glyph::rod, .coordinates = {1, 2, 0}, .components = false}; }
+};
+
+TEST(Page, AManifoldIsDrawnAsItSays) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("rectangle", {{"size", {1, 1}}, {"cells", {2, 2}}}, {{"shape", "quadrilateral"}});
+  OutputModel model;
+  model.fields = {{"n", &manifold_ops<Lines>(), Rule::projection, std::make_shared<const Space>(mesh, mesh->region("all"), 1)}};
+  PageStates states(directory.path(), model);
+  states.write(0, 0, Output(model).sample({{nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0.8, 0.6, 0}; })}, 0}));
+  write_summary(directory / "summary.json", summary_of("rods"));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  const json glyphs = page.shape().at("glyphs").at(0);
+  EXPECT_EQ(glyphs.at("kind"), "rod");
+  const std::vector<double> rod = page.array(glyphs.at("arrays").at(0)), colour = page.array(page.field("n").at("arrays").at(0));
+  const double expected[] = {0.6, 0, 0.8};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(rod.at(i), expected[i], 1e-6);
+    EXPECT_NEAR(colour.at(i), expected[i], 1e-6);
+  }
+  EXPECT_EQ(page.field("n").at("kind"), "direction");
+  EXPECT_THROW(page.field("n.1"), std::runtime_error);
+  EXPECT_EQ(page.shape().at("start").at("glyphs"), "n");
+}
+
 TEST(Page, ValuesThatAreNotNumbersAreCountedAndKept) {
   const TemporaryDirectory directory;
   const auto mesh = generated("rectangle", {{"size", {1, 1}}, {"cells", {3, 3}}}, {{"shape", "quadrilateral"}});
@@ -528,6 +558,18 @@ TEST(PageStates, LengthsBeyondTheFileAreRefusedAlsoWhereTheirBytesAreMoreThan64B
   part["points"] = 1;
   part["cells"] = std::uint64_t{1} << 62;
   EXPECT_NE(refusal(part, three_floats).find("was written by another version of Karcher"), std::string::npos);
+}
+
+TEST(PageStates, ADescriptionThatNamesTheManifoldIsReadAsItsDrawing) {
+  const TemporaryDirectory directory;
+  const auto read = [&](const std::string& manifold) {
+    const json description = {
+        {"machine", ""}, {"deformation", ""}, {"manifolds", {{"u", manifold}}}, {"terms", json::array()}, {"parts", json::array()}};
+    write_atomically(directory / "report.data", std::string(store_magic) + record(description_record, description.dump(), {}));
+    return read_store(directory / "report.data");
+  };
+  EXPECT_EQ(read("SPD2").drawings.at("u").glyph, Glyph::ellipsoid);
+  EXPECT_THROW(read("of another program"), InputError);
 }
 
 TEST(PageStates, AResumedRunGoesOnAfterTheStatesItKeeps) {

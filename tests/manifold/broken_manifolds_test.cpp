@@ -67,6 +67,15 @@ struct LogWithFrozenFactor : S2 {
   }
 };
 
+struct SphereThatIsCalledLinear : Sphere<1> {
+  static constexpr int dim = 2;
+  static constexpr bool linear = true;
+  template <class T>
+  static Mat<T, 2, 2> frame(const Vec<T, 2>&) {
+    return identity<T, 2>();
+  }
+};
+
 template <class M>
 bool violates(const std::string& law) {
   for (const std::string& s : manifold_laws<M>())
@@ -83,4 +92,5 @@ TEST(ManifoldLaws, FindAProjectionThatLeavesTheManifold) { EXPECT_TRUE(violates<
 TEST(ManifoldLaws, FindAProjectionThatIsNotClosest) { EXPECT_TRUE(violates<ProjectionNotClosest>("another point is closer")); }
 TEST(ManifoldLaws, FindARetractionThatIsNotTheExponentialMap) { EXPECT_TRUE(violates<ExpWithoutSecondOrder>("log does not invert exp")); }
 TEST(ManifoldLaws, FindLostDerivatives) { EXPECT_TRUE(violates<LogWithFrozenFactor>("derivatives of log are wrong")); }
+TEST(ManifoldLaws, FindAManifoldThatIsCalledLinear) { EXPECT_TRUE(violates<SphereThatIsCalledLinear>("exp_p(a) is not p + a")); }
 TEST(ManifoldLaws, FindNothingWrongWithTheSphere) { EXPECT_TRUE(manifold_laws<S2>().empty()); }

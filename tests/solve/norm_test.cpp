@@ -4,7 +4,11 @@
 
 #include <numeric>
 
+#include "karcher/manifold/euclidean.hpp"
+#include "karcher/manifold/product.hpp"
+#include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/generators.hpp"
+#include "solve/small_problem.hpp"
 
 namespace karcher {
 namespace {
@@ -44,6 +48,18 @@ TEST(LumpedMass, OfTheLinearTriangleIsAThirdOfItsAreaAtEachVertex) {
   for (int node : quadratic.cell_nodes(0)) in_cell.push_back(mass[static_cast<std::size_t>(node)]);
   for (int v = 0; v < 3; ++v) EXPECT_NEAR(in_cell[static_cast<std::size_t>(v)], 3.0 * 6 / 114, 1e-13);
   for (int e = 3; e < 6; ++e) EXPECT_NEAR(in_cell[static_cast<std::size_t>(e)], 3.0 * 32 / 114, 1e-13);
+}
+
+double step_mass_of(const ManifoldOps& manifold, int cells) {
+  return total(
+      step_mass(*testing::SmallProblem(cells, manifold, {}, std::vector<double>(static_cast<std::size_t>((cells + 1) * manifold.ambient))).layout));
+}
+
+TEST(StepMass, MeasuresStepsInRnByHalfTheSizeOfTheMeshAndAllOthersAsTheyAre) {
+  EXPECT_NEAR(step_mass_of(manifold_ops<Euclidean<3>>(), 20), 3 / 100.0, 1e-15);
+  EXPECT_NEAR(step_mass_of(manifold_ops<Rotation>(), 20), 3, 1e-14);
+  EXPECT_NEAR(step_mass_of(manifold_ops<Product<Euclidean<3>, Rotation>>(), 20), 3 / 100.0 + 3, 1e-14);
+  EXPECT_NEAR(step_mass_of(manifold_ops<Product<Rotation, Euclidean<1>>>(), 20), 1 / 100.0 + 3, 1e-14);
 }
 
 }  // namespace

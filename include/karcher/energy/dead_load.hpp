@@ -4,7 +4,9 @@
 
 #include <span>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/euclidean.hpp"
+#include "karcher/manifold/list.hpp"
+#include "karcher/manifold/sphere.hpp"
 
 namespace karcher {
 
@@ -30,5 +32,8 @@ struct DeadLoadOn {
   template <class P>
   using Density = DeadLoad<M, P>;
 };
+
+/// Where a force works: R^n, and spheres by their ambient space.
+using LoadManifold = ManifoldList<Euclidean<1>, Euclidean<2>, Euclidean<3>, Sphere<1>, Sphere<2>, Sphere<3>>;
 
 }  // namespace karcher

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "karcher/manifold/any_manifold.hpp"
 #include "karcher/math/tensor.hpp"
 
 namespace karcher {

@@ -25,11 +25,11 @@ FieldAtPoint evaluate_field(const ManifoldOps& manifold, Rule rule, std::span<co
 /// The value alone.
 FieldAtPoint evaluate_field(const ManifoldOps& manifold, Rule rule, std::span<const double> nodes, std::span<const double> l);
 
-/// Fills the table for a user's own manifold, so that evaluate_field finds it by ManifoldOps::name. The built-in manifolds are there already.
+/// Fills the table for a user's own manifold, so that evaluate_field knows it. The built-in manifolds are there already.
 struct FieldEvaluator {
   FieldAtPoint (*projection)(std::span<const double>, std::span<const double>, std::span<const std::array<double, 3>>) = nullptr;
   FieldAtPoint (*geodesic)(std::span<const double>, std::span<const double>, std::span<const std::array<double, 3>>) = nullptr;
 };
-void register_evaluator(const std::string& manifold, FieldEvaluator evaluator);
+void register_evaluator(const ManifoldOps& manifold, FieldEvaluator evaluator);
 
 }  // namespace karcher

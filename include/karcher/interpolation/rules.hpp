@@ -6,17 +6,10 @@
 #include "karcher/interpolation/sphere_projection.hpp"
 #include "karcher/interpolation/unit_vector_mean.hpp"
 #include "karcher/interpolation/weighted_mean.hpp"
-#include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rule.hpp"
-#include "karcher/manifold/sphere.hpp"
-#include "karcher/manifold/unitary.hpp"
+#include "karcher/manifold/traits.hpp"
 
 namespace karcher {
-
-template <class M>
-inline constexpr bool is_linear = false;
-template <int N>
-inline constexpr bool is_linear<Euclidean<N>> = true;
 
 namespace rules_detail {
 template <class M, int D, class T>

@@ -5,8 +5,8 @@
 /// Part 0 is the region of the main field (the deformation, else the field on the entities of highest dimension); every further region that carries a field is a
 /// part of its own. A part has every field that lives on all of its entities. The order is the highest of the part's fields and geometry.
 ///
-/// Point data of a field u:  R^n, S^n, SU(2): ambient coordinates under the field's name.  SO(3): the unit quaternion under the field's name, and the columns
-/// d_1, d_2, d_3 of the rotation as "director1..3" ("<name>.director1..3" if several fields are rotations).  SPD(n): the n x n matrix, row by row.
+/// Point data of a field u: the ambient coordinates under the field's name, and before them ManifoldOps::arrays under their names ("<field>.<name>" if several fields
+/// have one): of SO(3) the columns d_1, d_2, d_3 of the rotation as "director1..3".
 /// With a deformation m (R^n, n <= 3): points are m itself, "reference" is the place in the stress-free configuration, "displacement" = m - reference.
 /// Cell data: "energy_density.<term>" = energy of the term on the cell / reference measure of the cell (length, area, volume), for every term on the part,
 /// and "energy_density.<term>.<part>" for the parts that a term tells apart.

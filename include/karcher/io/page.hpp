@@ -30,7 +30,7 @@ class PageStates {
 
  private:
   std::filesystem::path file_;
-  std::string description_;  ///< JSON of the manifolds, until the first state is written
+  std::string description_;  ///< JSON of the fields, until the first state is written
   bool described_ = false;
 };
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/traits.hpp"
 
 namespace karcher {
 
@@ -12,11 +12,14 @@ template <int N>
 struct Euclidean {
   static_assert(N >= 1 && N <= 3, "Euclidean<N> is named for N = 1, 2, 3");
   static constexpr std::string_view name = N == 1 ? "R1" : N == 2 ? "R2" : "R3";
+  static constexpr std::string_view description = N == 1 ? "the real line" : N == 2 ? "the Euclidean plane" : "Euclidean space";
   static constexpr int ambient = N;
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numeric_limits<double>::infinity();
+  static constexpr bool linear = true;
 
   static Vec<double, N> origin() { return {}; }
+  static Drawing drawing() { return {.place = true}; }
   template <class T>
   static Vec<T, N> exp(const Vec<T, N>& p, const Vec<T, N>& a) {
     return p + a;

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/traits.hpp"
 #include "karcher/math/functions.hpp"
 
 namespace karcher {
@@ -24,6 +24,8 @@ template <int N>
 struct Hyperbolic {
   static_assert(N == 2 || N == 3, "Hyperbolic<N> is named for N = 2, 3");
   static constexpr std::string_view name = N == 2 ? "H2" : "H3";
+  static constexpr std::string_view description =
+      N == 2 ? "hyperbolic plane, hyperboloid x0^2 = 1 + x1^2 + x2^2, x0 > 0" : "hyperbolic space, hyperboloid x0^2 = 1 + x1^2 + x2^2 + x3^2, x0 > 0";
   static constexpr int ambient = N + 1;
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numeric_limits<double>::infinity();

@@ -80,7 +80,9 @@ concept ProjectionIsWhole = requires(Point<M> p) {
 ///                             and -p are besides the same point (rotations). Interpolation has closed forms then (unit_vector_mean.hpp)
 /// M::origin()                 some point, at double: where the law suite begins
 /// M::LogAround<S, T>          log_q(w)(p(v)) in a moving frame, written by hand (spd.hpp) for weighted_mean.hpp
-/// M::dist(p, q), M::defect(x), M::make_point(x, p)   at double: see distance() below and any_manifold.hpp
+/// M::dist(p, q)               at double: see distance() below
+/// M::defect(x)                at double: how far x is from the manifold, relatively; 0 for points up to rounding
+/// What else may be told, e.g. how problem files write points and how the page draws them: traits.hpp.
 template <class M>
 concept Manifold = manifold_detail::HasName<M> && manifold_detail::HasDimensions<M> && manifold_detail::HasExp<M> && manifold_detail::HasLog<M> &&
     manifold_detail::HasInner<M> && manifold_detail::HasFrame<M> && manifold_detail::HasInjectivityRadius<M>;

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/traits.hpp"
 
 namespace karcher {
 
@@ -70,6 +70,12 @@ struct Product {
   /// First ambient coordinate and first tangent coordinate of every factor.
   static constexpr std::array<int, sizeof...(M)> ambient_offset = product_detail::offsets<sizeof...(M)>({M::ambient...});
   static constexpr std::array<int, sizeof...(M)> dim_offset = product_detail::offsets<sizeof...(M)>({M::dim...});
+  static constexpr std::array<bool, static_cast<std::size_t>(dim)> lengths = [] {
+    std::array<bool, static_cast<std::size_t>(dim)> all{};
+    auto to = all.begin();
+    ((to = std::ranges::copy(lengths_of<M>(), to).out), ...);
+    return all;
+  }();
 
   /// The I-th factor of a point or of an ambient tangent vector.
   template <std::size_t I, class T>

@@ -23,13 +23,17 @@ namespace karcher {
 
 struct Rotation {
   static constexpr std::string_view name = "SO3";
+  static constexpr std::string_view description =
+      "rotations of space; points are unit quaternions (w, x, y, z), q and -q the same; distance = angle of rotation";
   static constexpr int ambient = 4;
   static constexpr int dim = 3;
   static constexpr double injectivity_radius = std::numbers::pi;
   static constexpr int unit_scale = 2;
+  static constexpr bool body_axes = true;
 
   /// The identity.
   static Vec<double, 4> origin() { return {{1.0}}; }
+  static constexpr bool has_identity = true;
   template <class T>
   static Vec<T, 4> exp(const Vec<T, 4>& p, const Vec<T, 4>& a) {
     return unit_vector::exp(p, a);
@@ -90,6 +94,68 @@ struct Rotation {
   template <class T>
   static Vec<T, 4> product(const Vec<T, 4>& p, const Vec<T, 4>& q) {
     return quaternion_product(p, q);
+  }
+
+  /// The matrix divided by sqrt 2, so that small distances are angles.
+  template <class T>
+  static Vec<T, 9> error_coordinates(const Vec<T, 4>& p) {
+    return scaled(rotation_matrix(p));
+  }
+  /// A rotation vector, or a matrix by rows, of which the closest rotation is meant.
+  struct Entries {
+    static constexpr std::array counts{3, 9};
+    static constexpr std::string_view wanted = "a rotation vector (3 entries), a matrix by rows (9), a quaternion (4) or \"identity\"";
+    static bool make_point(std::span<const double> e, Vec<double, 4>& p) {
+      if (e.size() == 3) {
+        p = quaternion_of_rotation_vector(vector(e));
+        return true;
+      }
+      const PolarFactor<double> f = polar_factor(matrix(e));
+      p = f.q;
+      return f.defined;
+    }
+    template <class T>
+    static Vec<T, 9> error_coordinates(std::span<const T> e) {
+      return e.size() == 3 ? Rotation::error_coordinates(quaternion_of_rotation_vector(vector(e))) : scaled(matrix(e));
+    }
+  };
+  static std::vector<Quantity> quantities() {
+    using Q = Vec<double, 4>;
+    return {quantity<4>("rotation-vector", [](const Q& p) { return to_rotation_vector(p); }),
+            quantity<4>("director1", [](const Q& p) { return director(p, 0); }), quantity<4>("director2", [](const Q& p) { return director(p, 1); }),
+            quantity<4>("director3", [](const Q& p) { return director(p, 2); })};
+  }
+  /// The directors as files have them: by squares of all coordinates.
+  static std::vector<Quantity> arrays() { return {axis<0>(), axis<1>(), axis<2>()}; }
+  static Drawing drawing() { return {.glyph = Glyph::frame, .coordinates = {1, 2, 3, 0}, .components = false, .directors = true}; }
+
+ private:
+  /// d_k = q e_k q^-1
+  template <int k>
+  static Quantity axis() {
+    return quantity<4>("director" + std::to_string(k + 1), [](const Vec<double, 4>& p) {
+      const double w = p[0], x = p[1], y = p[2], z = p[3];
+      const Vec3<double> d[] = {{{w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)}},
+                                {{2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)}},
+                                {{2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z}}};
+      return d[k];
+    });
+  }
+  template <class T>
+  static Vec<T, 9> scaled(const Mat3<T>& r) {
+    Vec<T, 9> x;
+    for (int i = 0; i < 9; ++i) x[i] = r.e[static_cast<std::size_t>(i)] * (0.5 * std::numbers::sqrt2);
+    return x;
+  }
+  template <class T>
+  static Vec3<T> vector(std::span<const T> e) {
+    return {{e[0], e[1], e[2]}};
+  }
+  template <class T>
+  static Mat3<T> matrix(std::span<const T> e) {
+    Mat3<T> r;
+    std::ranges::copy(e, r.e.begin());
+    return r;
   }
 };
 

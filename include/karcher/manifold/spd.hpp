@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/traits.hpp"
 #include "karcher/math/symmetric.hpp"
 
 namespace karcher {
@@ -27,6 +27,8 @@ template <int N>
 struct Spd {
   static_assert(N == 2 || N == 3, "Spd<N> is named for N = 2, 3");
   static constexpr std::string_view name = N == 2 ? "SPD2" : "SPD3";
+  static constexpr std::string_view description = N == 2 ? "symmetric positive definite 2x2 matrices (4 entries by rows), affine-invariant metric"
+                                                         : "symmetric positive definite 3x3 matrices (9 entries by rows), affine-invariant metric";
   static constexpr int ambient = N * N;
   static constexpr int dim = N * (N + 1) / 2;
   static constexpr double injectivity_radius = std::numeric_limits<double>::infinity();
@@ -42,6 +44,10 @@ struct Spd {
 
   /// The identity.
   static Vec<double, N * N> origin() { return point(identity<double, N>()); }
+  static constexpr bool has_identity = true;
+  static Drawing drawing() {
+    return {.glyph = Glyph::ellipsoid, .coordinates = N == 2 ? std::vector<int>{0, 3, 1} : std::vector<int>{0, 4, 8, 1, 2, 5}, .components = false};
+  }
   template <class T>
   static Vec<T, N * N> exp(const Vec<T, N * N>& p, const Vec<T, N * N>& a) {
     if constexpr (one_by_one<T>) return lane_by_lane(p, a, [](const auto& x, const auto& y) { return exp(x, y); });

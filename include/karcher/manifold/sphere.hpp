@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/traits.hpp"
 #include "karcher/math/functions.hpp"
 
 namespace karcher {
@@ -81,6 +81,9 @@ template <int N>
 struct Sphere {
   static_assert(N >= 1 && N <= 3, "Sphere<N> is named for N = 1, 2, 3");
   static constexpr std::string_view name = N == 1 ? "S1" : N == 2 ? "S2" : "S3";
+  static constexpr std::string_view description = N == 1   ? "the unit circle; points are unit vectors of R^2"
+                                                  : N == 2 ? "the unit sphere; points are unit vectors of R^3"
+                                                           : "the unit sphere of R^4";
   static constexpr int ambient = N + 1;
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numbers::pi;
@@ -88,6 +91,17 @@ struct Sphere {
 
   /// The first unit vector.
   static Vec<double, N + 1> origin() { return {{1.0}}; }
+  /// The last unit vector.
+  static Vec<double, N + 1> standard_point() {
+    Vec<double, N + 1> p;
+    p[N] = 1;
+    return p;
+  }
+  static Drawing drawing() {
+    if (N == 1) return {.glyph = Glyph::arrow, .coordinates = {0, 1}, .place = true};
+    if (N == 2) return {.glyph = Glyph::arrow, .coordinates = {0, 1, 2}, .place = true, .sphere = true};
+    return {};
+  }
   template <class T>
   static Vec<T, N + 1> exp(const Vec<T, N + 1>& p, const Vec<T, N + 1>& a) {
     return unit_vector::exp(p, a);

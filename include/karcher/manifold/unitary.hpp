@@ -14,6 +14,8 @@ namespace karcher {
 
 struct Unitary {
   static constexpr std::string_view name = "SU2";
+  static constexpr std::string_view description =
+      "special unitary group as unit quaternions (w, x, y, z), q and -q different; metric of the unit sphere of R^4";
   static constexpr int ambient = 4;
   static constexpr int dim = 3;
   static constexpr double injectivity_radius = std::numbers::pi;
@@ -21,6 +23,8 @@ struct Unitary {
 
   /// The identity.
   static Vec<double, 4> origin() { return {{1.0}}; }
+  static constexpr bool has_identity = true;
+  static Drawing drawing() { return {.glyph = Glyph::frame, .coordinates = {1, 2, 3, 0}}; }
   template <class T>
   static Vec<T, 4> exp(const Vec<T, 4>& p, const Vec<T, 4>& a) {
     return unit_vector::exp(p, a);

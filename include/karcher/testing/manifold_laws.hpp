@@ -9,6 +9,7 @@
 ///   exp, log    exp_p(0) = p; log inverts exp for lengths from 1e-12 to the injectivity radius less 1e-6; lengths are distances; the distance is symmetric and
 ///               obeys the triangle inequality; both ends agree on the midpoint
 ///   metric      geodesics have constant speed; the gradient of dist^2(., p)/2 is -log (by jets)
+///   linear      a type that says it is linear (traits.hpp) is R^n: exp_p(a) = p + a, log_p(q) = q - p, and the frame is the identity
 ///   values      stay on the manifold over many steps (where M::defect exists)
 ///   projection  idempotent, closer than other points nearby; chord is tangent, vanishes at equal points, derivative symmetric positive definite
 ///   scalars     packs agree with double lane by lane; jets have the values of double, and derivatives that pass Taylor tests with slopes 2 and 3, also at
@@ -24,7 +25,7 @@
 #include <string>
 #include <vector>
 
-#include "karcher/manifold/manifold.hpp"
+#include "karcher/manifold/traits.hpp"
 #include "karcher/math/functions.hpp"
 #include "karcher/testing/derivative_checks.hpp"
 #include "karcher/testing/random.hpp"
@@ -70,6 +71,7 @@ class Laws {
       inverse(p);
       distances(p);
       metric(p);
+      if constexpr (is_linear<M>) linear(p);
       if constexpr (HasProjection<M>) projection(p);
       derivatives(p);
     }
@@ -182,6 +184,16 @@ class Laws {
     double error = 0;
     for (int i = 0; i < k; ++i) error = std::max(error, std::abs(half.gradient(i) + back[i]));
     expect_below(error, 100 * options_.tolerance, "the gradient of half the squared distance is not -log", r);
+  }
+
+  void linear(const P& p) {
+    static_assert(n == k, "A linear manifold has as many tangent coordinates as ambient ones.");
+    const V v = length() * random_.template direction<k>();
+    const P q = p + v;
+    expect_below(gap(M::exp(p, v), q), options_.tolerance, "the manifold is not linear, exp_p(a) is not p + a");
+    expect_below(gap(M::log(p, q), q - p), options_.tolerance, "the manifold is not linear, log_p(q) is not q - p");
+    expect_below(std::sqrt(norm2(M::frame(p) - identity<double, n>())), options_.tolerance,
+                 "the manifold is not linear, the frame is not the identity");
   }
 
   void projection(const P& p) {

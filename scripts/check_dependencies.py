@@ -53,12 +53,6 @@ LOADS, LOAD_ENDING = {"volume", "traction", "line", "point"}, "-load"
 # Names that still stand elsewhere: file -> names, or COMPARED for the name of a ManifoldOps that is looked into.
 COMPARED = "name of a manifold"
 EXCEPTIONS = {
-    "src/assembly/catalogue.cpp": {"chiral-skyrmion", "cosserat-shell", "frank-oseen", "harmonic", "l2-distance", LOAD_ENDING},
-    "src/assembly/shell_term.cpp": {"cosserat-shell"},
-    "src/assembly/single_field_terms.hpp": {"harmonic", "l2-distance"},
-    "src/assembly/terms_director.cpp": {"chiral-skyrmion", "frank-oseen"},
-    "src/app/read_terms.cpp": {LOAD_ENDING},
-    "src/io/page_fields.cpp": {"frank-oseen", LOAD_ENDING},
     "src/io/checkpoint.cpp": {COMPARED},  # the name in the file must be that of the field
 }
 

@@ -72,14 +72,26 @@ struct Output::Part {
   std::vector<OutputCell> cells;
 };
 
+std::string quantity_name(const std::string& quantity, const std::string& term) {
+  const std::size_t dot = quantity.find('.');
+  return dot == std::string::npos ? quantity + "." + term : quantity.substr(0, dot) + "." + term + quantity.substr(dot);
+}
+
 void set_terms(OutputModel& model, const Functional& functional) {
   std::vector<std::string> names;
   model.term_parts.clear();
+  model.quantities.clear();
+  model.headless.clear();
+  model.loads.clear();
   for (const auto& term : functional.terms()) {
     names.push_back(term->name());
     model.term_parts.push_back(term->part_names());
+    model.quantities.push_back(term->info().quantities);
+    model.headless.insert(model.headless.end(), term->info().headless.begin(), term->info().headless.end());
   }
   model.terms = distinct_names(std::move(names));
+  for (std::size_t t = 0; t < model.terms.size(); ++t)
+    if (functional.terms()[t]->info().load) model.loads.push_back(model.terms[t]);
 }
 
 Output::Output(OutputModel model) : model_(std::move(model)) {
@@ -135,13 +147,19 @@ Output::Output(OutputModel model) : model_(std::move(model)) {
 Output::Output(Output&&) noexcept = default;
 Output::~Output() = default;
 
-// Layout of the energies: part of the mesh after part, and for each of them column after column (a term, then its own parts): the number of cells that have
-// the column, then the energy of every cell.
+// Layout of the energies: part of the mesh after part, and for each of them column after column (a term, its own parts, the components of its quantities): the
+// number of cells that have the column, then the number of every cell.
 std::vector<double> Output::cell_energies(const Functional& functional, const Configuration& u) const {
   assert(functional.terms().size() == model_.terms.size());
   const auto parts_shown = [&](std::size_t term) { return term < model_.term_parts.size() ? model_.term_parts[term].size() : 0; };
+  const auto quantities_shown = [&](std::size_t term) {
+    std::size_t components = 0;
+    if (term < model_.quantities.size())
+      for (const QuantityInfo& q : model_.quantities[term]) components += static_cast<std::size_t>(q.components);
+    return components;
+  };
   std::size_t columns = 0;
-  for (std::size_t t = 0; t < model_.terms.size(); ++t) columns += 1 + parts_shown(t);
+  for (std::size_t t = 0; t < model_.terms.size(); ++t) columns += 1 + parts_shown(t) + quantities_shown(t);
   std::vector<std::size_t> begin;
   std::size_t size = 0;
   for (const auto& part : parts_) {
@@ -157,6 +175,7 @@ std::vector<double> Output::cell_energies(const Functional& functional, const Co
       const Batch& batch = term.batch(b);
       term.evaluate(u, b, Want::energy, result);
       const auto parts_of_term = parts_shown(t) > 0 ? term.batch_part_energies(u, b) : std::vector<std::array<double, native_width>>();
+      const auto quantities = quantities_shown(t) > 0 ? term.batch_quantities(u, b) : std::vector<std::array<double, native_width>>();
       for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.cells_used); ++lane) {
         const Cell& cell = term.cell(batch.cells[lane]);
         const EntityKey key = key_of(cell);
@@ -171,10 +190,12 @@ std::vector<double> Output::cell_energies(const Functional& functional, const Co
           };
           add(first_column, result.energy[lane]);
           for (std::size_t k = 0; k < std::min(parts_shown(t), parts_of_term.size()); ++k) add(first_column + 1 + k, parts_of_term[k][lane]);
+          for (std::size_t k = 0; k < std::min(quantities_shown(t), quantities.size()); ++k)
+            add(first_column + 1 + parts_shown(t) + k, quantities[k][lane]);
         }
       }
     }
-    first_column += 1 + parts_shown(t);
+    first_column += 1 + parts_shown(t) + quantities_shown(t);
   }
   return energies;
 }
@@ -220,11 +241,18 @@ std::vector<double> nodal_values(const Field& field, int field_index, const std:
 }  // namespace
 
 std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const double> energies) const {
-  std::vector<std::string> columns;
+  struct Column {  // one array of cell data, of as many columns as it has components
+    std::string name;
+    int components = 1;
+    bool density = true;  ///< to be divided by the measure of the cell
+  };
+  std::vector<Column> columns;
   for (std::size_t t = 0; t < model_.terms.size(); ++t) {
-    columns.push_back(model_.terms[t]);
+    columns.push_back({"energy_density." + model_.terms[t]});
     if (t < model_.term_parts.size())
-      for (const std::string& p : model_.term_parts[t]) columns.push_back(model_.terms[t] + "." + p);
+      for (const std::string& p : model_.term_parts[t]) columns.push_back({"energy_density." + model_.terms[t] + "." + p});
+    if (t < model_.quantities.size())
+      for (const QuantityInfo& q : model_.quantities[t]) columns.push_back({quantity_name(q.name, model_.terms[t]), q.components, false});
   }
   std::vector<OutputPart> out;
   std::size_t block = 0;
@@ -266,13 +294,17 @@ std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const d
     }
 
     if (!energies.empty())
-      for (const std::string& column : columns) {
+      for (const Column& column : columns) {
+        const auto components = static_cast<std::size_t>(column.components);
+        const std::size_t stride = 1 + o.cells.size();
         if (energies[block] > 0) {
-          std::vector<double> density;
-          for (std::size_t c = 0; c < o.cells.size(); ++c) density.push_back(energies[block + 1 + c] / part->measure[c]);
-          o.cell_data.push_back({"energy_density." + column, 1, std::move(density)});
+          std::vector<double> values;
+          for (std::size_t c = 0; c < o.cells.size(); ++c)
+            for (std::size_t k = 0; k < components; ++k)
+              values.push_back(energies[block + k * stride + 1 + c] / (column.density ? part->measure[c] : 1.0));
+          o.cell_data.push_back({column.name, column.components, std::move(values)});
         }
-        block += 1 + o.cells.size();
+        block += components * stride;
       }
     out.push_back(std::move(o));
   }

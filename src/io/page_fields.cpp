@@ -20,8 +20,6 @@ using Values = std::vector<float>;
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 constexpr double degree = 180 / std::numbers::pi;
 
-bool is_load(const std::string& term) { return term.find("-load") != std::string::npos || term == "load"; }
-
 /// Finds what a part has, by name.
 int index_of(const std::vector<StoredArray>& list, const std::string& name) {
   for (std::size_t k = 0; k < list.size(); ++k)
@@ -37,8 +35,8 @@ class Fields {
   json list = json::array(), glyphs = json::array();
   std::string first_field, first_glyphs;
 
-  /// Numbers at every facet: value(state, facet) of the facet's own cell, or of the cell below it.
-  void add_cell_field(const std::string& name, const std::string& label,
+  /// Numbers at every facet: value(state, facet) of the facet's own cell, or of the cell below it. array: the cell data that they are made of; empty: of several.
+  void add_cell_field(const std::string& name, const std::string& label, const std::string& array,
                       const std::function<float(int part, const StoredValues&, std::size_t cell)>& value) {
     json numbers = json::array();
     long bad = 0;
@@ -50,7 +48,7 @@ class Fields {
         float x = value(f.part, state.parts[static_cast<std::size_t>(f.part)], static_cast<std::size_t>(f.cell));
         if (std::isnan(x) && f.below_part >= 0)
           x = value(f.below_part, state.parts[static_cast<std::size_t>(f.below_part)], static_cast<std::size_t>(f.below_cell));
-        if (!std::isfinite(x) && here(name, f)) bad_cells.insert({f.part, f.cell});
+        if (!std::isfinite(x) && here(array, f)) bad_cells.insert({f.part, f.cell});
         v.push_back(x);
       }
       bad += static_cast<long>(bad_cells.size());
@@ -209,9 +207,8 @@ class Fields {
   }
 
   /// Whether the facet carries this cell array at all; elsewhere "no number" is no news.
-  bool here(const std::string& name, const PageFacet& f) const {
-    if (name == "energy") return true;
-    return index_of(store_.parts[static_cast<std::size_t>(f.part)].cell_data, name) >= 0;
+  bool here(const std::string& array, const PageFacet& f) const {
+    return array.empty() || index_of(store_.parts[static_cast<std::size_t>(f.part)].cell_data, array) >= 0;
   }
 
   static std::vector<std::size_t> one_in_each_box(const StoredPart& part, double boxes) {
@@ -246,9 +243,11 @@ void add_energies(const Store& store, Fields& fields) {
   const auto is_term = [&](const std::string& name) {
     return std::find(store.terms.begin(), store.terms.end(), name.substr(prefix.size())) != store.terms.end();
   };
-  const auto counts = [&](const std::string& name) { return is_term(name) && !is_load(name.substr(prefix.size())); };
+  const auto counts = [&](const std::string& name) {
+    return is_term(name) && std::find(store.loads.begin(), store.loads.end(), name.substr(prefix.size())) == store.loads.end();
+  };
   if (std::any_of(names.begin(), names.end(), counts)) {
-    fields.add_cell_field("energy", "energy density", [&](int part, const StoredValues& v, std::size_t cell) {
+    fields.add_cell_field("energy", "energy density", "", [&](int part, const StoredValues& v, std::size_t cell) {
       const StoredPart& p = store.parts[static_cast<std::size_t>(part)];
       float sum = 0;
       bool any = false;
@@ -265,10 +264,29 @@ void add_energies(const Store& store, Fields& fields) {
     const std::size_t dot = is_term(name) ? std::string::npos : rest.rfind('.');
     const std::string label =
         dot == std::string::npos ? "energy density, " + rest : rest.substr(dot + 1) + " energy density" + (single ? "" : ", " + rest.substr(0, dot));
-    fields.add_cell_field(name, label, [&](int part, const StoredValues& v, std::size_t cell) {
+    fields.add_cell_field(name, label, name, [&](int part, const StoredValues& v, std::size_t cell) {
       const int k = index_of(store.parts[static_cast<std::size_t>(part)].cell_data, name);
       return k < 0 ? missing : v.cell_data[static_cast<std::size_t>(k)][cell];
     });
+  }
+}
+
+/// What the terms tell besides their energies.
+void add_quantities(const Store& store, Fields& fields) {
+  for (const auto& [name, legend] : store.quantities) {
+    int components = 0;
+    for (const StoredPart& part : store.parts)
+      if (const int k = index_of(part.cell_data, name); k >= 0) components = part.cell_data[static_cast<std::size_t>(k)].components;
+    for (int c = 0; c < components; ++c) {
+      const std::string key = components == 1 ? name : fmt::format("{}.{}", name, c + 1);
+      fields.add_cell_field(
+          key, components == 1 ? legend : fmt::format("{}, component {}", legend, c + 1), name,
+          [&, name = name](int part, const StoredValues& v, std::size_t cell) {
+            const int k = index_of(store.parts[static_cast<std::size_t>(part)].cell_data, name);
+            return k < 0 ? missing
+                         : v.cell_data[static_cast<std::size_t>(k)][cell * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+          });
+    }
   }
 }
 
@@ -334,8 +352,7 @@ void add_vectors(const Shown& s) {
     const double square = norm2(v), scale = square > 0 ? 1 / std::sqrt(square) : 0;
     for (int c = 0; c < 3; ++c) out[c] = scale * v[c];
   });
-  const bool nematic = std::any_of(s.store.terms.begin(), s.store.terms.end(), [](const std::string& t) { return t.rfind("frank-oseen", 0) == 0; });
-  const bool rod = nematic || s.drawing.glyph == Glyph::rod;
+  const bool rod = s.drawing.glyph == Glyph::rod;
   s.fields.add_glyphs(s.name, rod ? "rod" : "arrow", s.name, 3, s.most_glyphs, [&](const float* in, double* out) {
     const Vec3<double> v = vector_of(s.drawing, in);
     std::copy_n(v.e.begin(), 3, out);
@@ -454,6 +471,7 @@ json shape_header(const Store& store, const std::vector<int>& states, const Page
 
   Fields fields(store, states, shape, arrays);
   add_energies(store, fields);
+  add_quantities(store, fields);
   if (moves) {
     fields.add_vertex_field("displacement", "displacement", "scalar", {"displacement"},
                             [](const double* in, double* v) { v[0] = std::sqrt(in[0] * in[0] + in[1] * in[1] + in[2] * in[2]); });

@@ -87,6 +87,9 @@ void read_description(const json& j, BinaryReader& reader, Store& store) {
   for (const auto& [name, drawing] : j.at(by_name ? "manifolds" : "drawings").items())
     store.drawings[name] = by_name ? manifold_by_name(drawing).drawing : read_drawing(drawing);
   for (const json& term : j.at("terms")) store.terms.push_back(term);
+  if (j.contains("loads")) store.loads = j.at("loads");
+  if (j.contains("quantities"))
+    for (const auto& [name, legend] : j.at("quantities").items()) store.quantities[name] = legend;
   for (const json& p : j.at("parts")) {
     StoredPart part;
     part.region = p.at("region");
@@ -220,10 +223,23 @@ const Drawing* draw_as_curves(Store& store) {
 }
 
 PageStates::PageStates(std::filesystem::path directory, const OutputModel& model, int first_state) : file_(std::move(directory) / "report.data") {
-  json drawings = json::object();
-  for (const Field& f : model.fields) drawings[f.name] = written_drawing(f.manifold->drawing);
+  json drawings = json::object(), quantities = json::object();
+  for (std::size_t f = 0; f < model.fields.size(); ++f) {
+    Drawing drawing = model.fields[f].manifold->drawing;
+    const bool headless = std::count(model.headless.begin(), model.headless.end(), static_cast<int>(f)) > 0;
+    if (headless && drawing.glyph == Glyph::arrow) drawing.glyph = Glyph::rod;
+    drawings[model.fields[f].name] = written_drawing(drawing);
+  }
+  for (std::size_t t = 0; t < model.quantities.size(); ++t)
+    for (const QuantityInfo& q : model.quantities[t]) {
+      std::string legend = q.description;
+      if (q.unit != "1") legend += fmt::format(" ({})", q.unit);
+      quantities[quantity_name(q.name, model.terms[t])] = legend;
+    }
   const std::string deformation = model.deformation >= 0 ? model.fields[static_cast<std::size_t>(model.deformation)].name : std::string();
-  description_ = json{{"machine", machine_sentence()}, {"deformation", deformation}, {"drawings", drawings}, {"terms", model.terms}}.dump();
+  description_ = json{{"machine", machine_sentence()}, {"deformation", deformation}, {"drawings", drawings},
+                      {"terms", model.terms},          {"loads", model.loads},       {"quantities", quantities}}
+                     .dump();
   std::string kept(store_magic);
   if (first_state > 0 && std::filesystem::exists(file_)) {
     const std::string content = read_whole(file_);

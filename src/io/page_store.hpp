@@ -47,9 +47,10 @@ struct StoredState {
 
 struct Store {
   std::string machine;
-  std::map<std::string, Drawing> drawings;  ///< of the fields
-  std::vector<std::string> terms;
-  std::string deformation;  ///< name of the field that moves the points; empty if there is none
+  std::map<std::string, Drawing> drawings;        ///< of the fields
+  std::vector<std::string> terms, loads;          ///< names of all terms, and of those that are loads
+  std::map<std::string, std::string> quantities;  ///< arrays of cell data that are quantities of terms -> their legends
+  std::string deformation;                        ///< name of the field that moves the points; empty if there is none
   std::vector<StoredPart> parts;
   std::vector<StoredState> states;
   /// The record that a kill cut off, or damage, ended the reading; what came before is here.

@@ -1,4 +1,6 @@
 // Both rules on every manifold: exact variations, and the reference values of means that have a closed form.
+#include "karcher/manifold/every_manifold.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

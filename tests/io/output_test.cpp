@@ -212,8 +212,13 @@ TEST(Output, AReferenceGivenByAFunctionIsWhatDisplacementsStartFrom) {
 /// A term with a known energy on every cell of a region, on the cells of one rank.
 class KnownEnergies : public Term {
  public:
-  KnownEnergies(std::string name, Region region, std::vector<int> cells, double value)
-      : name_(std::move(name)), region_(std::move(region)), value_(value) {
+  KnownEnergies(std::string name, Region region, std::vector<int> cells, double value) : region_(std::move(region)), value_(value) {
+    info_.name = std::move(name);
+    info_.load = info_.name.ends_with("-load");
+    if (value == 0.5) {
+      info_.parts = {"even", "odd"};
+      info_.quantities = {{"stress.N", "force/length", 2, "membrane forces"}, {"charge", "1", 1, "charge"}};
+    }
     for (std::size_t begin = 0; begin < cells.size(); begin += native_width) {
       Batch b;
       b.cells_used = static_cast<int>(std::min<std::size_t>(native_width, cells.size() - begin));
@@ -224,7 +229,7 @@ class KnownEnergies : public Term {
       batches_.push_back(b);
     }
   }
-  const std::string& name() const override { return name_; }
+  const TermInfo& info() const override { return info_; }
   int batch_count() const override { return static_cast<int>(batches_.size()); }
   const Batch& batch(int b) const override { return batches_[static_cast<std::size_t>(b)]; }
   void evaluate(const Configuration&, int b, Want, BatchResult& out) const override {
@@ -234,8 +239,11 @@ class KnownEnergies : public Term {
       out.trouble[lane] = c == 3 ? Trouble::infinite_energy : Trouble::none;
     }
   }
-  std::vector<std::string> part_names() const override {
-    return value_ == 0.5 ? std::vector<std::string>{"even", "odd"} : std::vector<std::string>{};
+  std::vector<std::array<double, native_width>> batch_quantities(const Configuration&, int b) const override {
+    std::vector<std::array<double, native_width>> q(info_.quantities.empty() ? 0 : 3);
+    for (std::size_t k = 0; k < q.size(); ++k)
+      for (std::size_t lane = 0; lane < native_width; ++lane) q[k][lane] = 10.0 * batch(b).cells[lane] + static_cast<double>(k);
+    return q;
   }
   std::vector<std::array<double, native_width>> batch_part_energies(const Configuration&, int b) const override {
     if (part_names().empty()) return {};
@@ -249,7 +257,7 @@ class KnownEnergies : public Term {
   const Cell& cell(int c) const override { return region_.cells[static_cast<std::size_t>(c)]; }
 
  private:
-  std::string name_;
+  TermInfo info_;
   Region region_;
   double value_;
   std::vector<LocalBlock> blocks_{{0, 1}};
@@ -275,6 +283,7 @@ TEST(Output, EnergyDensitiesAreEnergiesPerReferenceMeasureHoweverTheCellsAreShar
   OutputModel model{.fields = {u}};
   set_terms(model, functional({0}, {}, {}));
   EXPECT_EQ(model.terms, (std::vector<std::string>{"shell", "traction-load", "film"}));
+  EXPECT_EQ(model.loads, (std::vector<std::string>{"traction-load"}));
   const Output output(model);
   const Configuration zero{{std::vector<double>(static_cast<std::size_t>(u.space->node_count()), 0.0)}, 0};
   const std::vector<double> whole = output.cell_energies(functional({0, 1, 2, 3, 4, 5}, {0, 1}, {0}), zero);
@@ -285,8 +294,10 @@ TEST(Output, EnergyDensitiesAreEnergiesPerReferenceMeasureHoweverTheCellsAreShar
 
   for (const auto& energies : {whole, sum}) {
     const OutputPart part = output.sample(zero, energies)[0];
-    EXPECT_EQ(names(part.cell_data), (std::vector<std::string>{"energy_density.shell", "energy_density.shell.even", "energy_density.shell.odd",
-                                                               "energy_density.film"}));  // the load is on no cell of the part
+    EXPECT_EQ(names(part.cell_data),
+              (std::vector<std::string>{"energy_density.shell", "energy_density.shell.even", "energy_density.shell.odd", "stress.shell.N",
+                                        "charge.shell", "energy_density.film"}));  // the load is on no cell of the part
+    EXPECT_EQ(part.cell_data[3].components, 2);
     for (std::size_t c = 0; c < 6; ++c) {
       if (c == 3) {
         EXPECT_TRUE(std::isnan(part.cell_data[0].values[c]));
@@ -295,7 +306,10 @@ TEST(Output, EnergyDensitiesAreEnergiesPerReferenceMeasureHoweverTheCellsAreShar
         EXPECT_EQ(part.cell_data[1 + c % 2].values[c], part.cell_data[0].values[c]);
         EXPECT_EQ(part.cell_data[2 - c % 2].values[c], 0);
       }
-      EXPECT_NEAR(part.cell_data[3].values[c], c < 2 ? -2.0 * static_cast<double>(1 + c) : 0.0, 1e-13);
+      // Quantities are not divided by the measure of the cell.
+      for (std::size_t k = 0; k < 3 && c != 3; ++k)
+        EXPECT_EQ(k < 2 ? part.cell_data[3].values[2 * c + k] : part.cell_data[4].values[c], 10.0 * static_cast<double>(c) + static_cast<double>(k));
+      EXPECT_NEAR(part.cell_data[5].values[c], c < 2 ? -2.0 * static_cast<double>(1 + c) : 0.0, 1e-13);
     }
   }
   EXPECT_TRUE(output.sample(zero)[0].cell_data.empty());

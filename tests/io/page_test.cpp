@@ -447,6 +447,38 @@ TEST(Page, AManifoldIsDrawnAsItSays) {
   EXPECT_EQ(page.shape().at("start").at("glyphs"), "n");
 }
 
+TEST(Page, ShowsQuantitiesOfTermsWithTheirLegendsLeavesLoadsOutOfTheEnergyAndDrawsHeadlessDirectorsAsRods) {
+  const TemporaryDirectory directory;
+  const auto mesh = generated("rectangle", {{"size", {1, 1}}, {"cells", {3, 3}}}, {{"shape", "quadrilateral"}});
+  OutputModel model;
+  model.fields = {field_on(mesh, mesh->region("all"), "n", "S2", 1), field_on(mesh, mesh->region("all"), "u", "S2", 1)};
+  model.terms = {"nematic", "weight"};
+  model.loads = {"weight"};
+  model.headless = {0};
+  model.quantities = {{{"stress.N", "force/length", 2, "membrane force"}, {"charge", "1", 1, "topological charge"}}, {}};
+  const std::vector<double> up = nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0, 0, 1}; });
+  std::vector<OutputPart> parts = Output(model).sample({{up, up}, 0});
+  OutputArray stress{"stress.nematic.N", 2, {}};
+  for (int c = 0; c < 9; ++c) stress.values.insert(stress.values.end(), {1.0 * c, -2.0 * c});
+  parts.at(0).cell_data = {{"energy_density.nematic", 1, std::vector<double>(9, 2.0)},
+                           {"energy_density.weight", 1, std::vector<double>(9, 5.0)},
+                           stress,
+                           {"charge.nematic", 1, std::vector<double>(9, 0.25)}};
+  PageStates states(directory.path(), model);
+  states.write(1, 1, parts);
+  write_summary(directory / "summary.json", summary_of("quantities"));
+  write_page(directory.path());
+  const ReadPage page = read_page(directory.path());
+  for (const double e : page.array(page.field("energy").at("arrays").at(0))) EXPECT_NEAR(e, 2, 1e-6);
+  EXPECT_EQ(page.field("charge.nematic").at("label"), "topological charge");
+  EXPECT_EQ(page.field("stress.nematic.N.2").at("label"), "membrane force (force/length), component 2");
+  const std::vector<double> second = page.array(page.field("stress.nematic.N.2").at("arrays").at(0));
+  for (std::size_t c = 0; c < 9; ++c) EXPECT_NEAR(second[c], -2.0 * static_cast<double>(c), 1e-3);
+  std::map<std::string, std::string> kinds;
+  for (const json& g : page.shape().at("glyphs")) kinds[g.at("name")] = g.at("kind");
+  EXPECT_EQ(kinds, (std::map<std::string, std::string>{{"n", "rod"}, {"u", "arrow"}}));
+}
+
 TEST(Page, ValuesThatAreNotNumbersAreCountedAndKept) {
   const TemporaryDirectory directory;
   const auto mesh = generated("rectangle", {{"size", {1, 1}}, {"cells", {3, 3}}}, {{"shape", "quadrilateral"}});

@@ -24,7 +24,7 @@ using CellFunction = std::function<CellValue(const std::vector<const double*>&, 
 class CellTerm : public Term {
  public:
   CellTerm(std::string name, const Field& field, const Layout& layout, CellFunction function)
-      : name_(std::move(name)), field_(field), function_(std::move(function)) {
+      : info_{std::move(name), {}, {}, false, {}}, field_(field), function_(std::move(function)) {
     const Space& space = *field.space;
     for (std::size_t c = 0; c < space.region().cells.size(); ++c)
       if (layout.cell_rank(space.region().cells[c]) == layout.rank()) cells_.push_back(static_cast<int>(c));
@@ -42,7 +42,7 @@ class CellTerm : public Term {
       }
     }
   }
-  const std::string& name() const override { return name_; }
+  const TermInfo& info() const override { return info_; }
   int batch_count() const override { return static_cast<int>(batches_.size()); }
   const Batch& batch(int b) const override { return batches_[static_cast<std::size_t>(b)]; }
   void set_load_parameter(double t) override { t_ = t; }
@@ -66,7 +66,7 @@ class CellTerm : public Term {
   }
 
  private:
-  std::string name_;
+  TermInfo info_;
   Field field_;
   CellFunction function_;
   std::vector<int> cells_;

@@ -9,7 +9,8 @@
 /// have one): of SO(3) the columns d_1, d_2, d_3 of the rotation as "director1..3".
 /// With a deformation m (R^n, n <= 3): points are m itself, "reference" is the place in the stress-free configuration, "displacement" = m - reference.
 /// Cell data: "energy_density.<term>" = energy of the term on the cell / reference measure of the cell (length, area, volume), for every term on the part,
-/// and "energy_density.<term>.<part>" for the parts that a term tells apart.
+/// and "energy_density.<term>.<part>" for the parts that a term tells apart. The quantities of a term are means over the cells: "charge" of the term T is "charge.T",
+/// "stress.N" is "stress.T.N".
 
 #include <functional>
 #include <map>
@@ -45,15 +46,21 @@ struct OutputPart {
 
 struct OutputModel {
   std::vector<Field> fields{};
-  int deformation = -1;                                ///< index of the field that moves the points; -1: points stay in the mesh
-  std::vector<std::string> terms{};                    ///< names of the terms of the functional, all different: see set_terms
-  std::vector<std::vector<std::string>> term_parts{};  ///< names of the parts of every term whose energies are shown, too; may be empty
+  int deformation = -1;                                 ///< index of the field that moves the points; -1: points stay in the mesh
+  std::vector<std::string> terms{};                     ///< names of the terms of the functional, all different: see set_terms
+  std::vector<std::vector<std::string>> term_parts{};   ///< names of the parts of every term whose energies are shown, too; may be empty
+  std::vector<std::vector<QuantityInfo>> quantities{};  ///< of every term, to be shown as cell data; may be empty
+  std::vector<std::string> loads{};                     ///< those of the terms that are potentials of loads
+  std::vector<int> headless{};                          ///< fields of which u and -u mean the same
   /// Stress-free configuration, if it is not the mesh, and the order of its interpolant (mesh/reference_geometry.hpp).
   std::function<Vec3<double>(const Vec3<double>&)> reference_position{};
   int reference_order = 2;
 };
 
-/// Fills the names of the functional's terms (distinct_names of summary.hpp) and of their parts.
+/// Name of a quantity of a term in files.
+std::string quantity_name(const std::string& quantity, const std::string& term);
+
+/// Fills what the functional's terms tell of themselves; their names are made distinct (distinct_names of summary.hpp).
 void set_terms(OutputModel& model, const Functional& functional);
 
 class Output {
@@ -62,7 +69,7 @@ class Output {
   Output(Output&&) noexcept;
   ~Output();
 
-  /// Energy of every term on every cell of every part that this rank evaluates, zero elsewhere, in a flat array of the same length on every rank.
+  /// Energy and quantities of every term on every cell of every part that this rank evaluates, zero elsewhere, in a flat array of the same length on every rank.
   /// Summed over the ranks, entry by entry (sum_over_ranks), it is what sample() takes.
   std::vector<double> cell_energies(const Functional& functional, const Configuration& u) const;
 

@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Karcher)
 # The rooms of the library; app is the program's alone.
-set(rooms options math expression manifold interpolation energy mesh field assembly catalogue solve io)
+set(rooms options math expression manifold interpolation energy mesh field assembly catalogue solve io problem)
 foreach(room ${rooms})
   set_target_properties(karcher_${room} PROPERTIES EXPORT_NAME ${room})
 endforeach()

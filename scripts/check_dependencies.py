@@ -22,7 +22,8 @@ USES = {
     "catalogue": ["assembly"],
     "solve": ["assembly"],
     "io": ["solve"],
-    "app": ["io", "catalogue", "expression"],
+    "problem": ["io"],
+    "app": ["problem", "catalogue", "expression"],
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 

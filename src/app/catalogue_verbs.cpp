@@ -7,7 +7,9 @@
 
 #include "app/schema.hpp"
 #include "app/verbs.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/mesh/generators.hpp"
 #include "karcher/text.hpp"
 #include "karcher/version.hpp"
 

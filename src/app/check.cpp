@@ -3,9 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "app/model.hpp"
 #include "app/verbs.hpp"
+#include "karcher/problem/discrete_problem.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 
 namespace karcher::app {
 namespace {
@@ -21,7 +22,7 @@ double cell_size(const Mesh& mesh) {
 }
 
 /// A random step: positions move by parts of a cell, other fields by parts of a radian.
-std::vector<double> random_step(const Model& model, double size, std::mt19937& random) {
+std::vector<double> random_step(const DiscreteProblem& model, double size, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<double> step(static_cast<std::size_t>(model.layout->local_dofs()), 0.0);
   const double length = cell_size(*model.discretisation.mesh);
@@ -55,7 +56,7 @@ double quadratic_form(const Layout& layout, const BlockMatrix& h, const std::vec
 }
 
 /// Taylor remainders of the energy along a random direction, from a random point near the initial configuration. \returns true if their slopes are 2 and 3
-bool derivatives(Model& model) {
+bool derivatives(DiscreteProblem& model) {
   std::mt19937 random(20240611);
   const Layout& layout = *model.layout;
   const Functional& functional = *model.functional;
@@ -119,7 +120,7 @@ int check(const CheckOptions& options) {
     mesh = build_mesh(problem);
   });
   if (options.derivatives && world_size() > 1) throw SharedInputError("check --derivatives runs on one rank.");
-  Model model = build_model(problem, mesh);
+  DiscreteProblem model = build(problem, mesh);
   rehearse(problem, model);
   if (world_rank() != 0) return 0;
   fmt::print("{}\n\nmesh      {} cells of dimension {}, {} nodes\n", problem.title, mesh->cells.size(), mesh->dim, mesh->nodes.size());

@@ -5,7 +5,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/errors.hpp"
 #include "app/launch.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
@@ -13,9 +12,11 @@
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/refine.hpp"
+#include "karcher/problem/discretisation_error.hpp"
 #include "karcher/solve/collectives.hpp"
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 
 namespace karcher::app {
 namespace {
@@ -84,7 +85,7 @@ void prolong(const std::vector<Level>& levels, const Constraints& constraints, C
 }
 
 /// Errors of every level against the finest, integrated over the finest mesh.
-void errors_against_finest(std::vector<Level>& levels, const Model& finest_model) {
+void errors_against_finest(std::vector<Level>& levels, const DiscreteProblem& finest_model) {
   const std::size_t fine = levels.size() - 1;
   for (std::size_t coarse = 0; coarse < fine; ++coarse) {
     for (std::size_t f = 0; f < levels[fine].fields.size(); ++f) {
@@ -210,7 +211,7 @@ std::string table_text(const std::vector<Level>& levels, bool exact) {
 }
 
 /// Solves on the last level. \returns the status
-Status solve(const Problem& problem, Model& model, Configuration& u, bool prolonged) {
+Status solve(const Problem& problem, DiscreteProblem& model, Configuration& u, bool prolonged) {
   ContinuationOptions continuation = problem.continuation;
   if (prolonged && problem.solver.method != "gradient-flow") {
     // The coarse solution belongs to the last load already.
@@ -235,7 +236,7 @@ int converge(const ConvergeOptions& options) {
   });
   const bool solves = !problem.terms.empty(), exact = !problem.exact.empty();
   std::vector<Level> levels;
-  Model model;
+  DiscreteProblem model;
   Status status = Status::converged;
   for (int k = 0; k <= options.levels; ++k) {
     Level& level = levels.emplace_back();
@@ -244,7 +245,7 @@ int converge(const ConvergeOptions& options) {
       mesh = std::make_shared<const Mesh>(std::move(refinement.mesh));
       level.children = std::move(refinement.children);
     }
-    model = build_model(problem, mesh);
+    model = build(problem, mesh);
     level.mesh = mesh;
     level.fields = model.fields();
     level.cells = static_cast<long>(mesh->cells.size());

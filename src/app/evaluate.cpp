@@ -3,17 +3,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/errors.hpp"
 #include "app/verbs.hpp"
+#include "karcher/problem/discretisation_error.hpp"
 #include "karcher/solve/collectives.hpp"
 #include "karcher/solve/norm.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 
 namespace karcher::app {
 namespace {
 
 /// |g|_* over the free dofs, see solve/norm.hpp.
-double gradient_norm(const Model& model, std::vector<double> gradient) {
+double gradient_norm(const DiscreteProblem& model, std::vector<double> gradient) {
   const Layout& layout = *model.layout;
   model.exchange->sum(gradient);
   const std::vector<double> mass = step_mass(layout);
@@ -36,7 +37,7 @@ int evaluate(const EvaluateOptions& options) {
     problem = read_problem(options.file, options.read);
     mesh = build_mesh(problem);
   });
-  Model model = build_model(problem, mesh);
+  DiscreteProblem model = build(problem, mesh);
   const Configuration& u = model.discretisation.initial;
   std::vector<double> gradient(static_cast<std::size_t>(model.layout->local_dofs()));
   require_energy(problem, model);

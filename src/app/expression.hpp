@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/place.hpp"
 #include "karcher/energy/parameter.hpp"
 #include "karcher/expression/symbols.hpp"
 #include "karcher/math/dual.hpp"
 #include "karcher/math/tensor.hpp"
+#include "karcher/place.hpp"
 
 namespace karcher::app {
 

@@ -38,6 +38,12 @@ PointValue PointValue::constant(std::vector<double> point, const std::string& ke
   return v;
 }
 
+PointFunction PointValue::function() const {
+  return {.value = [self = *this](const MeshPoint& s, double t, double* point) { self.evaluate(s.x, t, point); },
+          .depends_on_t = uses_t(),
+          .with_derivatives = [self = *this](const Vec3<double>& x, double t) { return self.with_derivatives(x, t); }};
+}
+
 bool PointValue::uses_t() const {
   return std::any_of(entries_.begin(), entries_.end(), [](const Expression& e) { return e.uses_t(); });
 }

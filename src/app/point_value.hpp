@@ -9,6 +9,7 @@
 #include "app/expression.hpp"
 #include "app/toml_value.hpp"
 #include "karcher/manifold/any_manifold.hpp"
+#include "karcher/problem/problem.hpp"
 
 namespace karcher::app {
 
@@ -20,6 +21,8 @@ class PointValue {
   ///   else the manifold knows (rotation vectors); or "identity", if it has one
   /// \throws InputError for a wrong number of entries and whatever else is no point
   PointValue(const Value& value, const std::string& key, const ManifoldOps& manifold, const Scope& scope);
+  /// The map as a problem takes it.
+  PointFunction function() const;
   /// Constant, in ambient coordinates.
   static PointValue constant(std::vector<double> point, const std::string& key, const ManifoldOps& manifold);
 

@@ -4,8 +4,8 @@
 
 #include "app/command_line.hpp"
 #include "app/launch.hpp"
-#include "app/progress.hpp"
 #include "app/ranks.hpp"
+#include "karcher/problem/results.hpp"
 
 namespace karcher::app {
 

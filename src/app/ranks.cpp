@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "app/launch.hpp"
-#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 
 namespace karcher::app {
 namespace {
@@ -37,13 +37,6 @@ int on_ranks(const std::function<int()>& verb) {
     report_exit(code);
     end_all_ranks(code);
   }
-}
-
-void throw_everywhere(const std::string& error) {
-  const std::string first = first_text(error);
-  if (first.empty()) return;
-  if (first[0] == 'I') throw SharedInputError(first.substr(1));
-  throw SharedError(first.substr(1));
 }
 
 }  // namespace karcher::app

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/problem.hpp"
+#include "app/problem_file.hpp"
 #include "app/read_terms.hpp"
 #include "app/schema.hpp"
 #include "app/section.hpp"
+#include "karcher/mesh/generators.hpp"
+#include "karcher/mesh/gmsh.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/text.hpp"
 
@@ -42,6 +44,13 @@ class Reader {
     quadrature();
     probes();
     output();
+    problem_.resolved = to_toml(problem_.values);
+    for (const Entry& e : problem_.values.entries)
+      if (e.key != "title" && e.key != "output" && e.key != "probes" && e.key != "solver" && e.key != "mesh") {
+        Value section;
+        section.entries.push_back(e);
+        problem_.identity.push_back(to_toml(section));
+      }
     return std::move(problem_);
   }
 
@@ -50,7 +59,7 @@ class Reader {
     const Entry* e = root_.find(key);
     return e ? &e->value : nullptr;
   }
-  void note(const std::string& key, Value value) { problem_.resolved.append(key, {}, std::move(value)); }
+  void note(const std::string& key, Value value) { problem_.values.append(key, {}, std::move(value)); }
   void note(const Section& section) { note(section.path(), section.resolved()); }
   Section section(const std::string& name, std::vector<std::string> more = {}) const {
     std::vector<std::string> keys = key_names(name);
@@ -106,19 +115,21 @@ class Reader {
     if (s.has("file")) {
       spec.place = s.place("file");
       const Path given = s.text("file");
-      spec.file = (given.is_absolute() ? given : problem_.file.parent_path() / given).lexically_normal();
-      s.note("file", Value::of(spec.file.string()));
+      const Path file = (given.is_absolute() ? given : problem_.file.parent_path() / given).lexically_normal();
+      spec.make = [file] { return read_gmsh(file.string()); };
+      s.note("file", Value::of(file.string()));
     } else {
-      spec.generator.name = s.text("generate");
-      for (const GeneratorArgument& a : info->arguments) generator_argument(s, a);
+      GeneratorOptions generator{s.text("generate"), {}, {}};
+      for (const GeneratorArgument& a : info->arguments) generator_argument(s, a, generator);
+      spec.make = [generator] { return karcher::generate(generator); };
     }
     spec.refine = s.integer("refine", 0, 0, 20);
     note(s);
   }
 
-  void generator_argument(Section& s, const GeneratorArgument& a) {
+  void generator_argument(Section& s, const GeneratorArgument& a, GeneratorOptions& generator) {
     if (a.is_choice()) {
-      problem_.mesh.generator.words[a.name] = s.word(a.name, a.words, a.words.front());
+      generator.words[a.name] = s.word(a.name, a.words, a.words.front());
       return;
     }
     const std::vector<double> values = s.constants(a.name, problem_.scope, a.numbers.size(), a.numbers);
@@ -128,7 +139,7 @@ class Reader {
         refuse(s.place(a.name),
                fmt::format("{} must be {} {}, not {}.", s.path(a.name), a.minimum_allowed ? "at least" : "greater than", a.minimum, x));
     }
-    problem_.mesh.generator.numbers[a.name] = values;
+    generator.numbers[a.name] = values;
     std::vector<Value> items;
     for (const double x : values) items.push_back(a.integer ? Value::of(static_cast<long long>(x)) : Value::of(x));
     s.note(a.name, items.size() == 1 ? items.front() : Value::of(items));
@@ -143,8 +154,9 @@ class Reader {
       spec.name = e.key;
       spec.place = e.place;
       spec.dim = s.integer("dim", {}, 0, 3);
-      spec.where = s.expression("where", problem_.scope);
-      if (spec.where.uses_t()) refuse(s.place("where"), s.path("where") + " must not depend on t.");
+      const Expression where = s.expression("where", problem_.scope);
+      spec.where = [where](const Vec3<double>& x) { return where(x, 0) != 0; };
+      if (where.uses_t()) refuse(s.place("where"), s.path("where") + " must not depend on t.");
       spec.boundary = s.flag("boundary", false);
       all.append(e.key, {}, s.resolved());
     }
@@ -154,9 +166,12 @@ class Reader {
   void reference() {
     if (!find("reference")) return;
     Section s = section("reference");
-    problem_.reference.position = s.expressions("position", problem_.scope, 3);
-    for (const Expression& e : problem_.reference.position)
+    const std::vector<Expression> position = s.expressions("position", problem_.scope, 3);
+    for (const Expression& e : position)
       if (e.uses_t()) refuse(s.place("position"), "reference.position must not depend on t.");
+    problem_.reference.position = [position](const Vec3<double>& x) {
+      return Vec3<double>{{position[0](x, 0), position[1](x, 0), position[2](x, 0)}};
+    };
     problem_.reference.order = s.integer("order", 2, 1, 3);
     note(s);
   }
@@ -191,7 +206,8 @@ class Reader {
       const int field = field_index(e.key, e.place);
       const Value* v = s.raw("value");
       if (!v) s.missing("value");
-      problem_.exact[field] = PointValue(*v, s.path("value"), *problem_.fields[static_cast<std::size_t>(field)].manifold, problem_.scope);
+      problem_.exact_values[field] = PointValue(*v, s.path("value"), *problem_.fields[static_cast<std::size_t>(field)].manifold, problem_.scope);
+      problem_.exact[field] = problem_.exact_values[field].function();
       exact_resolved_.append(e.key, {}, s.resolved());
     }
   }
@@ -213,18 +229,17 @@ class Reader {
       const bool deforms = linear && is_deformation(static_cast<int>(i));
       if (v && v->is(Value::Kind::text) && v->text == "reference") {
         if (!linear) refuse(v->place, s.path("initial") + ": the reference position is no point of " + spec.manifold->name + ".");
-        spec.initial_kind = InitialKind::reference;
+        // no function: the reference position
       } else if (v && v->is(Value::Kind::text) && v->text == "exact") {
         const auto known = problem_.exact.find(static_cast<int>(i));
         if (known == problem_.exact.end()) refuse(v->place, s.path("initial") + " is \"exact\", but there is no [exact." + spec.name + "].");
         spec.initial = known->second;
       } else if (v) {
-        spec.initial = PointValue(*v, s.path("initial"), *spec.manifold, problem_.scope);
+        spec.initial = PointValue(*v, s.path("initial"), *spec.manifold, problem_.scope).function();
       } else if (deforms) {
-        spec.initial_kind = InitialKind::reference;
         s.note("initial", Value::of("reference"));
       } else {
-        spec.initial = PointValue::constant(spec.manifold->standard_point, s.path("initial"), *spec.manifold);
+        spec.initial = PointValue::constant(spec.manifold->standard_point, s.path("initial"), *spec.manifold).function();
         std::vector<Value> items;
         for (const double x : spec.manifold->standard_point) items.push_back(Value::of(x));
         s.note("initial", Value::of(items));
@@ -232,7 +247,7 @@ class Reader {
       all.append(spec.name, {}, s.resolved());
     }
     // In the resolved file, fields stand before the terms.
-    auto& entries = problem_.resolved.entries;
+    auto& entries = problem_.values.entries;
     note("fields", all);
     const auto first_term = std::find_if(entries.begin(), entries.end(), [](const Entry& e) { return e.key == "energies" || e.key == "loads"; });
     if (first_term != entries.end()) std::rotate(first_term, entries.end() - 1, entries.end());
@@ -263,13 +278,10 @@ class Reader {
     if (v->is(Value::Kind::text) && v->text == "initial") {
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::initial);
     } else if (v->is(Value::Kind::text) && v->text == "exact") {
-      const auto known = problem_.exact.find(spec.field);
-      if (known == problem_.exact.end()) refuse(v->place, key + " is \"exact\", but the field has no [exact] value.");
+      const auto known = problem_.exact_values.find(spec.field);
+      if (known == problem_.exact_values.end()) refuse(v->place, key + " is \"exact\", but the field has no [exact] value.");
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
-      if (m.linear)
-        spec.entries = known->second.entries();
-      else
-        spec.point = known->second;
+      spec.value = m.linear ? of_components(spec.components, known->second.entries()) : known->second.function();
     } else if (v->is(Value::Kind::table)) {
       spec.components = axis_free(*v, key, m);
     } else if (m.linear) {
@@ -281,7 +293,7 @@ class Reader {
             refuse(item.place, key + ": components of a point of " + m.name + " cannot be \"" + item.text + "\"; fix the whole point" +
                                    (m.body_axes ? ", or leave an axis free: value = {axis-free = \"e3\"}." : "."));
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
-      spec.point = PointValue(*v, key, m, problem_.scope);
+      spec.value = PointValue(*v, key, m, problem_.scope).function();
     }
   }
 
@@ -291,14 +303,28 @@ class Reader {
     const std::size_t count = array ? v.items.size() : 1;
     if (count != static_cast<std::size_t>(m.dim) || (!array && m.dim > 1))
       refuse(v.place, fmt::format("{} has {} entries, but a point of {} has {}; \"free\" leaves one free.", key, count, m.name, m.dim));
+    std::vector<Expression> entries;
     for (std::size_t i = 0; i < count; ++i) {
       const Value& item = array ? v.items[i] : v;
       const bool word = item.is(Value::Kind::text) && (item.text == "free" || item.text == "initial");
       spec.components.push_back(!word ? Component::value : item.text == "free" ? Component::free : Component::initial);
-      spec.entries.push_back(word ? Expression(0.0) : expression_of(item, array ? fmt::format("{}.{}", key, i) : key, problem_.scope));
+      entries.push_back(word ? Expression(0.0) : expression_of(item, array ? fmt::format("{}.{}", key, i) : key, problem_.scope));
     }
     if (std::all_of(spec.components.begin(), spec.components.end(), [](Component c) { return c == Component::free; }))
       refuse(v.place, key + " leaves every component free.");
+    if (std::any_of(spec.components.begin(), spec.components.end(), [](Component c) { return c == Component::value; }))
+      spec.value = of_components(spec.components, entries);
+  }
+
+  /// Writes the coordinates of R^n that have a value.
+  static PointFunction of_components(const std::vector<DirichletSpec::Component>& components, const std::vector<Expression>& entries) {
+    PointFunction f;
+    f.depends_on_t = std::any_of(entries.begin(), entries.end(), [](const Expression& e) { return e.uses_t(); });
+    f.value = [components, entries](const MeshPoint& s, double t, double* point) {
+      for (std::size_t i = 0; i < entries.size(); ++i)
+        if (components[i] == DirichletSpec::Component::value) point[i] = entries[i](s.x, t);
+    };
+    return f;
   }
 
   /// Tangent coordinates are the body rotation vector: with the axis e_k of the body free, a step turns about d_k, which stays where it is.
@@ -412,29 +438,18 @@ class Reader {
   bool is_deformation(int field) const {
     for (const TermSpec& t : problem_.terms)
       for (std::size_t k = 0; k < t.fields.size(); ++k)
-        if (t.fields[k] == field && t.info->fields[k].moves) return true;
+        if (t.fields[k] == field && t.info.fields[k].moves) return true;
     return false;
   }
 
   ReadOptions options_;
   Value root_;
-  Problem problem_;
+  ProblemFile problem_;
   std::vector<Section> field_sections_;
   Value exact_resolved_;
 };
 
 }  // namespace
-
-bool DirichletSpec::uses_t() const {
-  return (point.is_given() && point.uses_t()) || std::any_of(entries.begin(), entries.end(), [](const Expression& e) { return e.uses_t(); });
-}
-
-int Problem::deformation() const {
-  for (const TermSpec& t : terms)
-    for (std::size_t k = 0; k < t.fields.size(); ++k)
-      if (t.info->fields[k].moves) return t.fields[k];
-  return -1;
-}
 
 Problem read_problem(const Path& file, const ReadOptions& options) { return Reader(file, options).read(); }
 

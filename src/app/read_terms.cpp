@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/section.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/text.hpp"
 
 namespace karcher::app {
@@ -87,7 +88,7 @@ void point_parameter(Section& s, const Parameter& p, const ManifoldOps& m, const
   }
 }
 
-void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const Problem& problem, ParameterValues& parameters) {
+void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const ProblemFile& problem, ParameterValues& parameters) {
   const ManifoldOps& m = *problem.fields[static_cast<std::size_t>(spec.fields.front())].manifold;
   if (p.point) return point_parameter(s, p, m, problem.scope, parameters);
   const Place place = s.place(p.name);
@@ -103,7 +104,7 @@ void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const 
     parameters[fmt::format("{}[{}]", p.name, i)] = in_range(e[i], p, fmt::format("{}.{}", s.path(p.name), i), place);
 }
 
-void read_fields(Section& s, const EnergyInfo& info, const Problem& problem, TermSpec& spec) {
+void read_fields(Section& s, const EnergyInfo& info, const ProblemFile& problem, TermSpec& spec) {
   for (const FieldSlot& slot : info.fields) {
     const std::string name = s.text(slot.key);
     const int index = field_index(problem, name, s.place(slot.key));
@@ -120,7 +121,7 @@ void read_fields(Section& s, const EnergyInfo& info, const Problem& problem, Ter
 
 }  // namespace
 
-int field_index(const Problem& problem, const std::string& name, const Place& place) {
+int field_index(const ProblemFile& problem, const std::string& name, const Place& place) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < problem.fields.size(); ++i) {
     if (problem.fields[i].name == name) return static_cast<int>(i);
@@ -138,7 +139,7 @@ std::vector<std::string> term_keys(const EnergyInfo& info) {
   return keys;
 }
 
-void read_terms(const std::string& section, const std::vector<Value>& tables, Problem& problem) {
+void read_terms(const std::string& section, const std::vector<Value>& tables, ProblemFile& problem) {
   std::vector<Value> resolved;
   for (const Value& table : tables) {
     const std::string path = fmt::format("{}.{}", section, resolved.size());
@@ -153,7 +154,8 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     s.text("type");
     spec.path = path;
     spec.place = table.place;
-    spec.info = &info;
+    spec.info = info;
+    spec.make = [name = info.term_name()](TermInput input) { return make_term(name, std::move(input)); };
     spec.on = s.text("on", "all");
     spec.on_place = s.place("on");
     read_fields(s, info, problem, spec);
@@ -165,7 +167,7 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     problem.terms.push_back(std::move(spec));
     resolved.push_back(s.resolved());
   }
-  if (!resolved.empty()) problem.resolved.append(section, {}, Value::of(std::move(resolved)));
+  if (!resolved.empty()) problem.values.append(section, {}, Value::of(std::move(resolved)));
 }
 
 }  // namespace karcher::app

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "app/launch.hpp"
-#include "app/progress.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
+#include "karcher/problem/results.hpp"
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 
 namespace karcher::app {
 namespace {
@@ -74,7 +75,7 @@ int run(const RunOptions& options) {
     check_solvable(problem);
     mesh = build_mesh(problem);
   });
-  Model model = build_model(problem, mesh);
+  DiscreteProblem model = build(problem, mesh);
   Configuration u = model.discretisation.initial;
   rehearse(problem, model);
   const std::uint64_t id = identity(problem, model);

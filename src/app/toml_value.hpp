@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/place.hpp"
+#include "karcher/place.hpp"
 
 namespace karcher::app {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/problem.hpp"
+#include "app/problem_file.hpp"
 
 namespace karcher::app {
 

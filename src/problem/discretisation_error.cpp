@@ -1,4 +1,4 @@
-#include "app/errors.hpp"
+#include "karcher/problem/discretisation_error.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,8 +6,9 @@
 #include "karcher/interpolation/evaluate.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/solve/collectives.hpp"
+#include "karcher/solve/together.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
 Metric::Metric(const GeometryJet& g, int dim) {
   std::array<std::array<double, 3>, 3> a{};
@@ -46,7 +47,7 @@ FieldSample sample_field(const Field& field, const std::vector<double>& nodal_va
   return s;
 }
 
-std::map<std::string, Summary::Error> errors_against_exact(const Problem& problem, const Model& model, const Configuration& u) {
+std::map<std::string, Summary::Error> errors_against_exact(const Problem& problem, const DiscreteProblem& model, const Configuration& u) {
   std::map<std::string, Summary::Error> errors;
   std::vector<double> sums;
   together([&] {
@@ -95,4 +96,4 @@ std::map<std::string, Summary::Error> errors_against_exact(const Problem& proble
   return errors;
 }
 
-}  // namespace karcher::app
+}  // namespace karcher

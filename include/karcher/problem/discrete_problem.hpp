@@ -6,14 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "app/constraints.hpp"
-#include "app/problem.hpp"
-#include "app/ranks.hpp"
 #include "karcher/assembly/functional.hpp"
 #include "karcher/io/output.hpp"
+#include "karcher/problem/constraints.hpp"
+#include "karcher/problem/problem.hpp"
 #include "karcher/solve/exchange.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
 /// Mesh with all its regions, refined as the file says. \throws InputError
 std::shared_ptr<const Mesh> build_mesh(const Problem& problem);
@@ -28,7 +27,7 @@ struct Discretisation {
 Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> mesh);
 
 /// Everything that a rank needs to solve.
-struct Model {
+struct DiscreteProblem {
   Discretisation discretisation;
   std::shared_ptr<const Layout> layout;
   std::unique_ptr<Functional> functional;
@@ -39,19 +38,19 @@ struct Model {
   const std::vector<Field>& fields() const { return discretisation.fields; }
 };
 /// Collective: an error of one rank is thrown on all.
-Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh);
+DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh);
 
 /// What cannot be evaluated at the start cannot be minimised. Collective. \throws InputError with the term and the cell
-void require_energy(const Problem& problem, const Model& model);
+void require_energy(const Problem& problem, const DiscreteProblem& model);
 
 /// All that would stop a run before its first step: probes outside, data that are wrong at the last load, an energy that is not defined at the start.
 /// Collective. \throws InputError
-void rehearse(const Problem& problem, const Model& model);
+void rehearse(const Problem& problem, const DiscreteProblem& model);
 
 /// What writers of results need to know.
-OutputModel output_model(const Problem& problem, const Model& model);
+OutputModel output_model(const Problem& problem, const DiscreteProblem& model);
 
 /// Place of the nodes of a space in the stress-free configuration.
 std::vector<Vec3<double>> reference_positions(const Problem& problem, const Space& space);
 
-}  // namespace karcher::app
+}  // namespace karcher

@@ -1,4 +1,4 @@
-#include "app/progress.hpp"
+#include "karcher/problem/results.hpp"
 
 #include <fmt/format.h>
 
@@ -6,31 +6,28 @@
 #include <chrono>
 #include <limits>
 
-#include "app/errors.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/problem/discretisation_error.hpp"
+#include "karcher/problem/probes.hpp"
 #include "karcher/solve/collectives.hpp"
+#include "karcher/solve/together.hpp"
 #include "karcher/version.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
 double seconds_now() {
   static const auto begin = std::chrono::steady_clock::now();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::uint64_t identity(const Problem& problem, const Model& model) {
+std::uint64_t identity(const Problem& problem, const DiscreteProblem& model) {
   Identity id;
   id.add(model.fields());
-  for (const Entry& e : problem.resolved.entries)
-    if (e.key != "title" && e.key != "output" && e.key != "probes" && e.key != "solver" && e.key != "mesh") {
-      Value section;
-      section.entries.push_back(e);
-      id.add(to_toml(section));
-    }
+  for (const std::string& text : problem.identity) id.add(text);
   return id.value();
 }
 
-Results::Results(const Problem& problem, const Model& model, std::uint64_t identity, double setup_seconds, int last)
+Results::Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds, int last)
     : problem_(problem),
       model_(model),
       identity_(identity),
@@ -60,7 +57,7 @@ void Results::begin(const Configuration& initial) {
     if (code) throw Error("The directory " + directory().string() + " cannot be made: " + code.message() + ".");
     // What an earlier run left would be taken for this one's.
     for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(directory() / stale, code);
-    write_atomically(directory() / "problem.resolved.toml", to_toml(problem_.resolved));
+    write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
     if (problem_.output.vtu) vtu_.emplace(directory());
     if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_));
     write_checkpoint(checkpoint_file(), {0, 0.0, initial, to_json(summary_)}, model_.fields(), identity_);
@@ -83,7 +80,7 @@ void Results::resume(const Checkpoint& checkpoint) {
     summary_.seconds.setup += setup;
     earlier_seconds_ = earlier.seconds.total;
     if (!writer_) return;
-    write_atomically(directory() / "problem.resolved.toml", to_toml(problem_.resolved));
+    write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
     if (problem_.output.vtu) {
       vtu_.emplace(directory());
       vtu_->resume(checkpoint.load_step + 1);
@@ -179,4 +176,4 @@ void Results::finish(Status status, const std::string& reason) {
   });
 }
 
-}  // namespace karcher::app
+}  // namespace karcher

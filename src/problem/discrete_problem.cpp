@@ -1,46 +1,40 @@
-#include "app/model.hpp"
+#include "karcher/problem/discrete_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/progress.hpp"
 #include "karcher/io/summary.hpp"
-#include "karcher/mesh/gmsh.hpp"
 #include "karcher/mesh/partition.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 #include "karcher/mesh/refine.hpp"
+#include "karcher/problem/mesh_points.hpp"
+#include "karcher/problem/probes.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 
-namespace karcher::app {
+namespace karcher {
 namespace {
-
-/// The stress-free position as function of the mesh point; empty: the mesh.
-std::function<Vec3<double>(const Vec3<double>&)> reference_position(const Problem& problem) {
-  const std::vector<Expression>& e = problem.reference.position;
-  if (e.empty()) return {};
-  return [e](const Vec3<double>& x) { return Vec3<double>{{e[0](x, 0), e[1](x, 0), e[2](x, 0)}}; };
-}
 
 void add_region(Mesh& mesh, const RegionSpec& spec) {
   if (mesh.regions.contains(spec.name)) refuse(spec.place, "the mesh has a region \"" + spec.name + "\" already; take another name.");
   if (spec.dim > mesh.dim)
     refuse(spec.place, "regions." + spec.name + ".dim is " + std::to_string(spec.dim) + ", but the cells of the mesh have dimension " +
                            std::to_string(mesh.dim) + ".");
-  mesh.regions[spec.name] = at_place(
-      spec.place, [&] { return select(mesh, spec.name, spec.dim, spec.boundary, [&](const Vec3<double>& x) { return spec.where(x, 0) != 0; }); });
+  mesh.regions[spec.name] = at_place(spec.place, [&] { return select(mesh, spec.name, spec.dim, spec.boundary, spec.where); });
 }
 
 std::vector<double> initial_values(const Problem& problem, const FieldSpec& spec, const Space& space) {
   const int n = spec.manifold->ambient;
   std::vector<double> values(static_cast<std::size_t>(space.node_count() * n));
-  if (spec.initial_kind == InitialKind::reference) {
+  if (!spec.initial) {
     const std::vector<Vec3<double>> positions = reference_positions(problem, space);
     for (int node = 0; node < space.node_count(); ++node)
       for (int i = 0; i < std::min(n, 3); ++i) values[static_cast<std::size_t>(node * n + i)] = positions[static_cast<std::size_t>(node)][i];
     return values;
   }
-  for (int node = 0; node < space.node_count(); ++node)
-    spec.initial.evaluate(space.position(node), problem.continuation.from, values.data() + static_cast<std::size_t>(node * n));
+  const std::vector<MeshPoint> places = mesh_points(space, spec.initial.asks_for_normal);
+  for (std::size_t node = 0; node < places.size(); ++node)
+    spec.initial.value(places[node], problem.continuation.from, values.data() + node * static_cast<std::size_t>(n));
   return values;
 }
 
@@ -57,19 +51,19 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.parameters = spec.parameters;
   input.choices = spec.choices;
   input.quadrature_degree = problem.quadrature;
-  input.reference_position = reference_position(problem);
+  input.reference_position = problem.reference.position;
   input.reference_order = problem.reference.order;
   input.t = problem.continuation.from;
-  return at_place(spec.place, [&] { return make_term(*spec.info, std::move(input)); });
+  return at_place(spec.place, [&] { return spec.make(std::move(input)); });
 }
 
 void check_region_of_term(const TermSpec& spec, const Discretisation& d) {
   const Region& region = at_place(spec.on_place, [&]() -> const Region& { return d.mesh->region(spec.on); });
-  const std::vector<int>& dims = spec.info->dimensions;
+  const std::vector<int>& dims = spec.info.dimensions;
   if (std::find(dims.begin(), dims.end(), region.dim) == dims.end()) {
     std::string allowed;
     for (const int dim : dims) allowed += (allowed.empty() ? "" : " or ") + std::to_string(dim);
-    refuse(spec.on_place, spec.path + ": " + spec.info->type + " is an integral over a region of dimension " + allowed + ", but \"" + spec.on +
+    refuse(spec.on_place, spec.path + ": " + spec.info.type + " is an integral over a region of dimension " + allowed + ", but \"" + spec.on +
                               "\" has dimension " + std::to_string(region.dim) + ".");
   }
   for (const int f : spec.fields) {
@@ -84,9 +78,16 @@ void check_region_of_term(const TermSpec& spec, const Discretisation& d) {
 
 }  // namespace
 
+int Problem::deformation() const {
+  for (const TermSpec& t : terms)
+    for (std::size_t k = 0; k < t.fields.size(); ++k)
+      if (t.info.fields[k].moves) return t.fields[k];
+  return -1;
+}
+
 std::vector<Vec3<double>> reference_positions(const Problem& problem, const Space& space) {
   std::vector<Vec3<double>> positions(static_cast<std::size_t>(space.node_count()));
-  const auto position = reference_position(problem);
+  const auto& position = problem.reference.position;
   if (!position) {
     for (int node = 0; node < space.node_count(); ++node) positions[static_cast<std::size_t>(node)] = space.position(node);
     return positions;
@@ -103,8 +104,7 @@ std::vector<Vec3<double>> reference_positions(const Problem& problem, const Spac
 
 std::shared_ptr<const Mesh> build_mesh(const Problem& problem) {
   const MeshSpec& spec = problem.mesh;
-  auto mesh =
-      std::make_shared<Mesh>(at_place(spec.place, [&] { return spec.file.empty() ? generate(spec.generator) : read_gmsh(spec.file.string()); }));
+  auto mesh = std::make_shared<Mesh>(at_place(spec.place, spec.make));
   for (int i = 0; i < spec.refine; ++i) *mesh = refine(*mesh).mesh;
   for (const RegionSpec& region : problem.regions) add_region(*mesh, region);
   return mesh;
@@ -125,8 +125,8 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
   return d;
 }
 
-Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh) {
-  Model m;
+DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) {
+  DiscreteProblem m;
   together([&] {
     m.discretisation = discretise(problem, std::move(mesh));
     const int ranks = world_size();
@@ -148,7 +148,7 @@ Model build_model(const Problem& problem, std::shared_ptr<const Mesh> mesh) {
   return m;
 }
 
-void require_energy(const Problem& problem, const Model& model) {
+void require_energy(const Problem& problem, const DiscreteProblem& model) {
   const Configuration& u = model.discretisation.initial;
   together([&] {
     model.functional->set_load_parameter(u.t);
@@ -159,7 +159,7 @@ void require_energy(const Problem& problem, const Model& model) {
   });
 }
 
-void rehearse(const Problem& problem, const Model& model) {
+void rehearse(const Problem& problem, const DiscreteProblem& model) {
   together([&] {
     probe_values(problem, model, model.discretisation.initial);
     model.functional->set_load_parameter(problem.continuation.to);
@@ -167,14 +167,14 @@ void rehearse(const Problem& problem, const Model& model) {
   require_energy(problem, model);
 }
 
-OutputModel output_model(const Problem& problem, const Model& model) {
+OutputModel output_model(const Problem& problem, const DiscreteProblem& model) {
   OutputModel o;
   o.fields = model.fields();
   o.deformation = problem.deformation();
   set_terms(o, *model.functional);
-  o.reference_position = reference_position(problem);
+  o.reference_position = problem.reference.position;
   o.reference_order = problem.reference.order;
   return o;
 }
 
-}  // namespace karcher::app
+}  // namespace karcher

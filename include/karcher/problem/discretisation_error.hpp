@@ -8,13 +8,13 @@
 #include <map>
 #include <string>
 
-#include "app/model.hpp"
 #include "karcher/io/summary.hpp"
+#include "karcher/problem/discrete_problem.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
 /// Errors against [exact] at u.t. \param u complete on this rank. Collective.
-std::map<std::string, Summary::Error> errors_against_exact(const Problem& problem, const Model& model, const Configuration& u);
+std::map<std::string, Summary::Error> errors_against_exact(const Problem& problem, const DiscreteProblem& model, const Configuration& u);
 
 /// The value of a field in coordinates of errors, and its derivatives in the reference coordinates of a cell.
 struct FieldSample {
@@ -32,4 +32,4 @@ struct Metric {
   Metric(const GeometryJet& g, int dim);
 };
 
-}  // namespace karcher::app
+}  // namespace karcher

@@ -1,4 +1,4 @@
-#include "app/constraints.hpp"
+#include "karcher/problem/constraints.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,9 @@
 #include <cmath>
 #include <set>
 
-namespace karcher::app {
+#include "karcher/problem/mesh_points.hpp"
+
+namespace karcher {
 namespace {
 
 /// Nodes of the field on the entities of a region, ascending.
@@ -38,14 +40,12 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
   }
 
   // The point that spec k wants at a node, at t; components that it leaves alone keep the initial values.
-  const auto wanted = [&](int k, int field, int node, double t) {
+  const auto wanted = [&](int k, int field, const MeshPoint& place, int node, double t) {
     const DirichletSpec& spec = specs_[static_cast<std::size_t>(k)];
-    const Field& f = fields[static_cast<std::size_t>(field)];
-    const double* from = initial.at(field, node, f.manifold->ambient);
-    std::vector<double> p(from, from + f.manifold->ambient);
-    if (spec.point.is_given()) write({field, node, -1, f.space->position(node), k}, t, p.data());
-    for (std::size_t i = 0; i < spec.entries.size(); ++i)
-      if (spec.components[i] == DirichletSpec::Component::value) write({field, node, static_cast<int>(i), f.space->position(node), k}, t, p.data());
+    const int ambient = fields[static_cast<std::size_t>(field)].manifold->ambient;
+    const double* from = initial.at(field, node, ambient);
+    std::vector<double> p(from, from + ambient);
+    if (spec.value) spec.value.value(place, t, p.data());
     return p;
   };
 
@@ -58,15 +58,16 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
     if (nodes.empty())
       refuse(spec.on_place, fmt::format("{}: the field \"{}\" lives on \"{}\" and has no node on the region \"{}\".", spec.path, f.name,
                                         f.space->region().name, spec.on));
-    const bool linear = spec.entries.size() == spec.components.size();
+    const std::vector<MeshPoint> places = spec.value ? mesh_points(*f.space, spec.value.asks_for_normal) : std::vector<MeshPoint>();
     for (const int node : nodes) {
+      const MeshPoint place = places.empty() ? MeshPoint{f.space->position(node), {}} : places[static_cast<std::size_t>(node)];
       for (std::size_t i = 0; i < spec.components.size(); ++i) {
         if (spec.components[i] == DirichletSpec::Component::free) continue;
         const std::size_t dof = static_cast<std::size_t>(node) * spec.components.size() + i;
         Owner& owner = owners[field][dof];
         if (owner.spec >= 0) {
           for (const double t : {problem.continuation.from, problem.continuation.to}) {
-            const std::vector<double> a = wanted(owner.spec, spec.field, node, t), b = wanted(static_cast<int>(k), spec.field, node, t);
+            const std::vector<double> a = wanted(owner.spec, spec.field, place, node, t), b = wanted(static_cast<int>(k), spec.field, place, node, t);
             const double distance = f.manifold->linear ? std::abs(a[i] - b[i]) : f.manifold->dist(a.data(), b.data());
             const double size = f.manifold->linear ? 1 + std::abs(a[i]) : 1.0;
             if (distance <= 1e-9 * size) continue;
@@ -82,10 +83,8 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
         }
         owner.spec = static_cast<int>(k);
         fixed_[field][dof] = 1;
-        if (linear && spec.components[i] == DirichletSpec::Component::value)
-          values_.push_back({spec.field, node, static_cast<int>(i), f.space->position(node), static_cast<int>(k)});
       }
-      if (spec.point.is_given()) values_.push_back({spec.field, node, -1, f.space->position(node), static_cast<int>(k)});
+      if (spec.value) values_.push_back({static_cast<int>(k), spec.field, node, place});
     }
   }
   // What cannot be evaluated is told before anything is done.
@@ -93,16 +92,9 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
   for (const double t : {problem.continuation.from, problem.continuation.to}) apply(t, scratch);
 }
 
-void Constraints::write(const NodeValue& value, double t, double* point) const {
-  const DirichletSpec& spec = specs_[static_cast<std::size_t>(value.spec)];
-  if (value.component < 0)
-    spec.point.evaluate(value.x, t, point);
-  else
-    point[value.component] = spec.entries[static_cast<std::size_t>(value.component)](value.x, t);
-}
-
 void Constraints::apply(double t, Configuration& u) const {
-  for (const NodeValue& v : values_) write(v, t, u.at(v.field, v.node, ambient_[static_cast<std::size_t>(v.field)]));
+  for (const NodeValue& v : values_)
+    specs_[static_cast<std::size_t>(v.spec)].value.value(v.place, t, u.at(v.field, v.node, ambient_[static_cast<std::size_t>(v.field)]));
 }
 
-}  // namespace karcher::app
+}  // namespace karcher

@@ -6,18 +6,18 @@
 #include <optional>
 #include <vector>
 
-#include "app/model.hpp"
 #include "karcher/io/checkpoint.hpp"
 #include "karcher/io/console_table.hpp"
 #include "karcher/io/iterations.hpp"
 #include "karcher/io/page.hpp"
 #include "karcher/io/summary.hpp"
 #include "karcher/io/vtu.hpp"
+#include "karcher/problem/discrete_problem.hpp"
 #include "karcher/solve/report.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
-/// Seconds of a clock that never goes back, since the program began.
+/// Seconds of a clock that never goes back, since the first call.
 double seconds_now();
 
 /// Hands the load steps of a run on, with numbers from 1 that go on where a resumed run left off.
@@ -47,7 +47,7 @@ class Renumbered : public Observer {
 class Results : public Observer {
  public:
   /// \param last number of the last load step, whose fields are always written; 0: not known beforehand
-  Results(const Problem& problem, const Model& model, std::uint64_t identity, double setup_seconds, int last);
+  Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds, int last);
 
   /// A new run: directory, resolved problem, and the initial configuration as state 0. Collective.
   void begin(const Configuration& initial);
@@ -67,7 +67,7 @@ class Results : public Observer {
   void update_times();
 
   const Problem& problem_;
-  const Model& model_;
+  const DiscreteProblem& model_;
   std::uint64_t identity_;
   int last_;
   bool writer_;
@@ -79,9 +79,6 @@ class Results : public Observer {
 };
 
 /// What must agree between a run and the run that continues it.
-std::uint64_t identity(const Problem& problem, const Model& model);
+std::uint64_t identity(const Problem& problem, const DiscreteProblem& model);
 
-/// Values of the probes at a complete configuration. \throws InputError for a probe off the field's region
-std::map<std::string, std::vector<double>> probe_values(const Problem& problem, const Model& model, const Configuration& u);
-
-}  // namespace karcher::app
+}  // namespace karcher

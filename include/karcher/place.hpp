@@ -6,7 +6,7 @@
 
 #include "karcher/error.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
 /// "problem.toml:12:3" (line and column from 1), or "--set solver.x=3" for what came from the command line.
 struct Place {
@@ -37,4 +37,4 @@ decltype(auto) at_place(const Place& place, const Work& work) {
   }
 }
 
-}  // namespace karcher::app
+}  // namespace karcher

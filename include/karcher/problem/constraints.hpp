@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "app/problem.hpp"
 #include "karcher/field/field.hpp"
+#include "karcher/problem/problem.hpp"
 
-namespace karcher::app {
+namespace karcher {
 
 class Constraints {
  public:
@@ -26,11 +26,9 @@ class Constraints {
 
  private:
   struct NodeValue {
-    int field = 0, node = 0, component = -1;  ///< -1: the whole point
-    Vec3<double> x{};
-    int spec = 0;
+    int spec = 0, field = 0, node = 0;
+    MeshPoint place;
   };
-  void write(const NodeValue& value, double t, double* point) const;
 
   std::vector<DirichletSpec> specs_;
   std::vector<std::vector<char>> fixed_;
@@ -38,4 +36,4 @@ class Constraints {
   std::vector<int> ambient_;
 };
 
-}  // namespace karcher::app
+}  // namespace karcher

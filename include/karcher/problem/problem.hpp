@@ -1,0 +1,132 @@
+#pragma once
+/// \file
+/// Problem: a minimisation problem, stated: mesh, fields, energies and loads, boundary data, load steps, solver, what is measured and written. Problem files, C++
+/// programs (karcher/karcher.hpp) and other languages fill it; discrete_problem.hpp builds it on its mesh, run.hpp solves it.
+///
+/// Data are functions of the mesh point and the load parameter. Names of regions are resolved when the mesh is there. Places say where something was stated, for
+/// messages; problems that were not read from a file have none.
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "karcher/assembly/term.hpp"
+#include "karcher/assembly/term_input.hpp"
+#include "karcher/energy/energy_info.hpp"
+#include "karcher/field/field.hpp"
+#include "karcher/math/dual.hpp"
+#include "karcher/place.hpp"
+#include "karcher/solve/continuation.hpp"
+
+namespace karcher {
+
+/// A point of the mesh at which data are asked for.
+struct MeshPoint {
+  Vec3<double> x;
+  Vec3<double> normal;  ///< of a surface (Orientation), where the data ask for it; else 0
+  operator const Vec3<double>&() const { return x; }
+};
+
+/// A map into a manifold: initial and boundary values, exact solutions.
+struct PointFunction {
+  /// Writes the ambient coordinates of the point. \throws InputError where there is none
+  std::function<void(const MeshPoint& s, double t, double* point)> value;
+  bool depends_on_t = false, asks_for_normal = false;
+  /// ManifoldOps::error_coordinates with their derivatives in x, y, z: of exact solutions.
+  std::function<std::vector<Dual<double, 3>>(const Vec3<double>& x, double t)> with_derivatives;
+
+  explicit operator bool() const { return static_cast<bool>(value); }
+};
+
+struct MeshSpec {
+  Place place;
+  std::function<Mesh()> make;
+  int refine = 0;  ///< times
+};
+
+struct RegionSpec {
+  std::string name;
+  Place place;
+  int dim = 0;
+  bool boundary = false;
+  std::function<bool(const Vec3<double>&)> where;
+};
+
+/// The stress-free configuration, where it is not the mesh.
+struct ReferenceSpec {
+  std::function<Vec3<double>(const Vec3<double>&)> position;  ///< of the mesh point; empty: the mesh itself
+  int order = 2;                                              ///< of its Lagrange interpolant
+};
+
+struct FieldSpec {
+  std::string name;
+  Place place, on_place;
+  const ManifoldOps* manifold = nullptr;
+  int order = 1;
+  Rule rule = Rule::projection;
+  std::string on = "all";
+  PointFunction initial;  ///< empty: the reference position (R^n)
+};
+
+/// An energy or a load.
+struct TermSpec {
+  EnergyInfo info;
+  std::function<std::unique_ptr<Term>(TermInput)> make;
+  std::string path;  ///< for messages: "energies.0"
+  Place place, on_place;
+  std::string on = "all";
+  std::vector<int> fields;  ///< for every slot of info
+  ParameterValues parameters;
+  std::map<std::string, std::string> choices;
+};
+
+struct DirichletSpec {
+  enum class Component { value, initial, free };
+  std::string path;  ///< for messages: "dirichlet.0"
+  Place place, on_place;
+  int field = 0;
+  std::string on;
+  std::vector<Component> components;  ///< one entry for each tangent coordinate of the manifold
+  /// Of linear manifolds: writes the components that have a value, and no other; else the whole point. Empty: nothing has a value.
+  PointFunction value;
+};
+
+struct ProbeSpec {
+  std::string name, quantity = "value";
+  Place place;
+  int field = 0;
+  Vec3<double> at{};
+};
+
+struct OutputSpec {
+  std::filesystem::path directory;  ///< absolute
+  bool vtu = true, report = true;
+  int every = 1;  ///< load steps
+};
+
+struct Problem {
+  std::filesystem::path file;  ///< empty: not from a file
+  std::string title;
+  MeshSpec mesh;
+  std::vector<RegionSpec> regions;
+  ReferenceSpec reference;
+  std::vector<FieldSpec> fields;
+  std::vector<TermSpec> terms;
+  std::vector<DirichletSpec> dirichlet;
+  ContinuationOptions continuation;
+  SolverOptions solver;
+  std::map<CellKind, int> quadrature;  ///< degrees, instead of the energies' own
+  std::map<int, PointFunction> exact;  ///< by field
+  std::vector<ProbeSpec> probes;
+  OutputSpec output;
+  std::string resolved;               ///< the whole problem as TOML, every default filled in; may be empty
+  std::vector<std::string> identity;  ///< texts that two runs must share for one to continue the other
+
+  /// First field whose values are the places of the points; -1 if there is none.
+  int deformation() const;
+};
+
+}  // namespace karcher

@@ -22,8 +22,8 @@ USES = {
     "catalogue": ["assembly"],
     "solve": ["assembly"],
     "io": ["solve"],
-    "problem": ["io"],
-    "app": ["problem", "catalogue", "expression"],
+    "problem": ["io", "catalogue"],
+    "app": ["problem", "expression"],
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 

@@ -35,6 +35,7 @@
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/gmsh.hpp"
 #include "karcher/mesh/partition.hpp"
+#include "karcher/problem/problem_impl.hpp"
 #include "karcher/solve/exchange.hpp"
 #include "karcher/solve/minimize.hpp"
 #include "karcher/solve/petsc.hpp"

@@ -218,9 +218,7 @@ Status solve(const Problem& problem, DiscreteProblem& model, Configuration& u, b
     continuation.steps = 1;
     continuation.adaptive = false;
   }
-  BoundaryValues boundary;
-  if (model.discretisation.constraints.has_values()) boundary = [&](double t, Configuration& to) { model.discretisation.constraints.apply(t, to); };
-  return run_continuation(*model.functional, u, boundary, continuation, problem.solver, {}).status;
+  return run_continuation(*model.functional, u, boundary_values(model), continuation, problem.solver, {}).status;
 }
 
 }  // namespace

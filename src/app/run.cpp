@@ -14,17 +14,6 @@
 namespace karcher::app {
 namespace {
 
-/// Every field must be moved by something, or the Hessian is singular.
-void check_solvable(const Problem& problem) {
-  if (problem.terms.empty()) throw InputError(problem.file.string() + ":1:1: there are no energies, so there is nothing to minimise.");
-  for (std::size_t i = 0; i < problem.fields.size(); ++i) {
-    const bool used = std::any_of(problem.terms.begin(), problem.terms.end(), [&](const TermSpec& t) {
-      return std::find(t.fields.begin(), t.fields.end(), static_cast<int>(i)) != t.fields.end();
-    });
-    if (!used) refuse(problem.fields[i].place, "no energy uses the field \"" + problem.fields[i].name + "\".");
-  }
-}
-
 int exit_code(Status status) {
   switch (status) {
     case Status::converged:
@@ -119,9 +108,7 @@ int run(const RunOptions& options) {
   listeners.push_back(&results);
   Renumbered numbered(listeners, finished);
   const std::vector<Observer*> observers{&numbered};
-  BoundaryValues boundary;
-  if (model.discretisation.constraints.has_values()) boundary = [&](double t, Configuration& to) { model.discretisation.constraints.apply(t, to); };
-  const ContinuationReport report = run_continuation(*model.functional, u, boundary, continuation, problem.solver, observers);
+  const ContinuationReport report = run_continuation(*model.functional, u, boundary_values(model), continuation, problem.solver, observers);
 
   results.finish(report.status, outcome(report, finished, problem.continuation.steps));
   table.reset();

@@ -78,6 +78,18 @@ void check_region_of_term(const TermSpec& spec, const Discretisation& d) {
 
 }  // namespace
 
+void check_solvable(const Problem& problem) {
+  if (problem.terms.empty())
+    throw InputError((problem.file.empty() ? std::string() : problem.file.string() + ":1:1: ") +
+                     "there are no energies, so there is nothing to minimise.");
+  for (std::size_t i = 0; i < problem.fields.size(); ++i) {
+    const bool used = std::any_of(problem.terms.begin(), problem.terms.end(), [&](const TermSpec& t) {
+      return std::find(t.fields.begin(), t.fields.end(), static_cast<int>(i)) != t.fields.end();
+    });
+    if (!used) refuse(problem.fields[i].place, "no energy uses the field \"" + problem.fields[i].name + "\".");
+  }
+}
+
 int Problem::deformation() const {
   for (const TermSpec& t : terms)
     for (std::size_t k = 0; k < t.fields.size(); ++k)
@@ -165,6 +177,11 @@ void rehearse(const Problem& problem, const DiscreteProblem& model) {
     model.functional->set_load_parameter(problem.continuation.to);
   });
   require_energy(problem, model);
+}
+
+BoundaryValues boundary_values(const DiscreteProblem& model) {
+  if (!model.discretisation.constraints.has_values()) return {};
+  return [&constraints = model.discretisation.constraints](double t, Configuration& u) { constraints.apply(t, u); };
 }
 
 OutputModel output_model(const Problem& problem, const DiscreteProblem& model) {

@@ -57,7 +57,7 @@ void Results::begin(const Configuration& initial) {
     if (code) throw Error("The directory " + directory().string() + " cannot be made: " + code.message() + ".");
     // What an earlier run left would be taken for this one's.
     for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(directory() / stale, code);
-    write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
+    if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
     if (problem_.output.vtu) vtu_.emplace(directory());
     if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_));
     write_checkpoint(checkpoint_file(), {0, 0.0, initial, to_json(summary_)}, model_.fields(), identity_);
@@ -80,7 +80,7 @@ void Results::resume(const Checkpoint& checkpoint) {
     summary_.seconds.setup += setup;
     earlier_seconds_ = earlier.seconds.total;
     if (!writer_) return;
-    write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
+    if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
     if (problem_.output.vtu) {
       vtu_.emplace(directory());
       vtu_->resume(checkpoint.load_step + 1);

@@ -10,9 +10,13 @@
 #include "karcher/io/output.hpp"
 #include "karcher/problem/constraints.hpp"
 #include "karcher/problem/problem.hpp"
+#include "karcher/solve/continuation.hpp"
 #include "karcher/solve/exchange.hpp"
 
 namespace karcher {
+
+/// Every field must be moved by something, or the Hessian is singular. \throws InputError
+void check_solvable(const Problem& problem);
 
 /// Mesh with all its regions, refined as the file says. \throws InputError
 std::shared_ptr<const Mesh> build_mesh(const Problem& problem);
@@ -46,6 +50,9 @@ void require_energy(const Problem& problem, const DiscreteProblem& model);
 /// All that would stop a run before its first step: probes outside, data that are wrong at the last load, an energy that is not defined at the start.
 /// Collective. \throws InputError
 void rehearse(const Problem& problem, const DiscreteProblem& model);
+
+/// The boundary data, as load steps want them; empty if they do not change.
+BoundaryValues boundary_values(const DiscreteProblem& model);
 
 /// What writers of results need to know.
 OutputModel output_model(const Problem& problem, const DiscreteProblem& model);

@@ -107,7 +107,43 @@ struct OutputSpec {
   int every = 1;  ///< load steps
 };
 
+/// A field of a problem that C++ code states, with its type.
+template <class M>
+struct FieldOf {
+  using Manifold = M;
+  int index = 0;       ///< in Problem::fields
+  bool moves = false;  ///< FieldSlot::moves
+};
+
+struct FieldOptions {
+  int order = 1;
+  Rule rule = Rule::projection;  ///< geodesic where a manifold has no projection
+  std::string on = "all";
+  bool moves = false;  ///< its values are the places of the points, where pictures show them
+};
+
+class Solution;
+
 struct Problem {
+  Problem() = default;
+  // What C++ programs state with: defined in problem_impl.hpp, which karcher.hpp includes.
+  explicit Problem(Mesh on, std::string name = "problem");
+  /// \param initial  a Point<M> as function of a MeshPoint (or of its Vec3<double>) \throws InputError when it is built, where it gives no point of M
+  template <class M, class F>
+  FieldOf<M> field(const std::string& name, const FieldOptions& options, F initial);
+  /// Starts at the reference position (R^n) or at the manifold's standard point.
+  template <class M>
+  FieldOf<M> field(const std::string& name, const FieldOptions& options = {});
+  void add(TermSpec term) { terms.push_back(std::move(term)); }
+  /// The nodes of a region keep their initial values.
+  template <class M>
+  void fix(FieldOf<M> field, const std::string& region);
+  /// The nodes of a region have the values f(s, t), a Point<M> each, s a MeshPoint.
+  template <class M, class F>
+  void prescribe(FieldOf<M> field, const std::string& region, F f);
+  template <class M>
+  void probe(const std::string& name, FieldOf<M> field, const Vec3<double>& at, const std::string& quantity = "value");
+
   std::filesystem::path file;  ///< empty: not from a file
   std::string title;
   MeshSpec mesh;

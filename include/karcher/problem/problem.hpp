@@ -49,10 +49,10 @@ struct MeshSpec {
 
 struct RegionSpec {
   std::string name;
-  Place place;
+  Place place{};
   int dim = 0;
   bool boundary = false;
-  std::function<bool(const Vec3<double>&)> where;
+  std::function<bool(const Vec3<double>&)> where{};
 };
 
 /// The stress-free configuration, where it is not the mesh.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "karcher/interpolation/rules.hpp"
+#include "karcher/manifold/every_manifold.hpp"
 
 namespace karcher::testing {
 

@@ -9,78 +9,19 @@
 #include "karcher/error.hpp"
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/exchange.hpp"
-#include "solve/small_problem.hpp"
+#include "solve/cell_functions.hpp"
 
 namespace karcher {
 namespace {
 
 using testing::CellFunction;
 using testing::CellValue;
+using testing::fixed_ends;
+using testing::rayleigh;
+using testing::Recorder;
+using testing::rosenbrock;
 using testing::SmallProblem;
-
-/// Chained Rosenbrock function: sum over cells of 100 (b - a^2)^2 + (1 - a)^2.
-CellValue rosenbrock(const std::vector<const double*>& u, const Vec3<double>&, double, double* g, double* h) {
-  const double a = *u[0], b = *u[1], r = b - a * a;
-  if (g) {
-    g[0] = -400 * a * r - 2 * (1 - a);
-    g[1] = 200 * r;
-  }
-  if (h) {
-    h[0] = -400 * r + 800 * a * a + 2;
-    h[1] = h[2] = -400 * a;
-    h[3] = 200;
-  }
-  return {100 * r * r + (1 - a) * (1 - a)};
-}
-
-/// 1/2 u.A u on S^2 at both nodes of a cell, A = diag(1, 2, 4): critical points are the eigenvectors, the energy is half the eigenvalue. The Hessian of
-/// the pullback through exp is E^T A E - (u.A u) I.
-CellValue rayleigh(const std::vector<const double*>& u, const Vec3<double>&, double, double* g, double* h) {
-  const double eigenvalues[] = {1, 2, 4};
-  const ManifoldOps& sphere = manifold_by_name("S2");
-  double energy = 0;
-  for (std::size_t node = 0; node < 2; ++node) {
-    double frame[6], twice = 0;
-    sphere.frame(u[node], frame);
-    for (int i = 0; i < 3; ++i) twice += eigenvalues[i] * u[node][i] * u[node][i];
-    energy += 0.5 * twice;
-    for (std::size_t k = 0; k < 2; ++k) {
-      double slope = 0;
-      for (std::size_t i = 0; i < 3; ++i) slope += frame[i * 2 + k] * eigenvalues[i] * u[node][i];
-      if (g) g[node * 2 + k] = slope;
-      for (std::size_t l = 0; h && l < 2; ++l) {
-        double c = k == l ? -twice : 0.0;
-        for (std::size_t i = 0; i < 3; ++i) c += frame[i * 2 + k] * eigenvalues[i] * frame[i * 2 + l];
-        h[(node * 2 + k) * 4 + node * 2 + l] = c;
-      }
-    }
-  }
-  return {energy};
-}
-
-/// Sum over cells of 1/2 (b - a - t)^2, infinite where b - a > 1.8.
-CellValue springs(const std::vector<const double*>& u, const Vec3<double>&, double t, double* g, double* h) {
-  const double r = *u[1] - *u[0] - t;
-  if (g) {
-    g[0] = -r;
-    g[1] = r;
-  }
-  if (h) {
-    h[0] = h[3] = 1;
-    h[1] = h[2] = -1;
-  }
-  if (*u[1] - *u[0] > 1.8) return {INFINITY, Trouble::infinite_energy};
-  return {0.5 * r * r};
-}
-
-struct Recorder : Observer {
-  std::vector<IterationRecord> records;
-  std::vector<StepReport> steps;
-  std::vector<double> begun;
-  void load_step_begins(int, double t) override { begun.push_back(t); }
-  void iteration(const IterationRecord& r) override { records.push_back(r); }
-  void load_step_finished(const StepReport& r, const Configuration&) override { steps.push_back(r); }
-};
+using testing::springs;
 
 TEST(Minimize, FindsTheMinimumOfTheChainedRosenbrockFunction) {
   for (int max_corrections : {0, 20}) {
@@ -149,15 +90,6 @@ TEST(Minimize, EscapesFromASaddleWhenAsked) {
     EXPECT_EQ(report.negative_eigenvalues, 0);
     EXPECT_NEAR(report.energy, 4, 1e-10);
   }
-}
-
-/// Flags that fix both ends of [0, cells], wherever the space has put their nodes.
-std::vector<char> fixed_ends(int cells) {
-  const auto mesh = testing::line_mesh(cells);
-  const Space space(mesh, mesh->regions.at("all"), 1);
-  std::vector<char> fixed;
-  for (int node = 0; node <= cells; ++node) fixed.push_back(space.position(node)[0] < 0.5 || space.position(node)[0] > cells - 0.5);
-  return fixed;
 }
 
 TEST(Minimize, LeavesFixedComponentsAlone) {
@@ -306,24 +238,6 @@ TEST(Minimize, ReportsReadAsOneSentence) {
   EXPECT_EQ(text.str(), "energy 6.963591204935, converged after 1 iteration: Nothing is left to do.");
 }
 
-TEST(Minimize, StopsAtTheAllowedNumberOfIterationsAndSaysSo) {
-  SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
-  SolverOptions options;
-  options.max_iterations = 3;
-  const StepReport report = minimize(*p.functional, p.u, options, {});
-  EXPECT_EQ(report.status, Status::not_converged);
-  EXPECT_EQ(report.iterations, 3);
-  EXPECT_NE(report.reason.find("After 3 iterations"), std::string::npos);
-}
-
-TEST(Minimize, EndsWhenInterrupted) {
-  SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
-  interrupt_requested = true;
-  const StepReport report = minimize(*p.functional, p.u, {}, {});
-  interrupt_requested = false;
-  EXPECT_EQ(report.status, Status::interrupted);
-}
-
 TEST(SolverOptions, RefuseWhatTheSolverDoesNotHave) {
   SolverOptions options;
   EXPECT_TRUE(options.validate().empty());
@@ -370,76 +284,6 @@ TEST(GradientFlow, TurnsOnTheSphereAtTheSpeedOfItsGradient) {
   const double found = std::atan2(p.value(0, 1), p.value(0, 0));
   // implicit Euler with lumped mass 1/2: (found - theta) / tau = -2 sin(found) cos(found)
   EXPECT_NEAR((found - theta) / 0.1, -2 * std::sin(found) * std::cos(found), 1e-9);
-}
-
-/// Ends of a chain of springs pulled apart to 3 t.
-struct Pull {
-  SmallProblem p;
-  int last = 0;
-  explicit Pull(int cells, CellFunction f = springs)
-      : p(cells, manifold_by_name("R1"), std::move(f), std::vector<double>(static_cast<std::size_t>(cells) + 1, 0.0), fixed_ends(cells)) {
-    for (int node = 0; node <= cells; ++node)
-      if (p.field.space->position(node)[0] > cells - 0.5) last = node;
-  }
-  BoundaryValues boundary(double scale) const {
-    return [this, scale](double t, Configuration& u) { u.values[0][static_cast<std::size_t>(last)] = scale * t; };
-  }
-};
-
-TEST(Continuation, PrescribedDisplacementsAreSpreadBeforeTheFirstEvaluation) {
-  // Pulled by 3 in one go, the last spring alone would be longer than 1.8 (infinite energy); spread over four springs it is 0.75.
-  Pull pull(4);
-  Recorder recorder;
-  Observer* observers[] = {&recorder};
-  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(3), {}, {}, observers);
-  complete(*pull.p.layout, pull.p.u);
-  EXPECT_EQ(report.status, Status::converged);
-  EXPECT_EQ(pull.p.value(4), 3);
-  EXPECT_NEAR(pull.p.value(1), 0.75, 1e-12);
-  ASSERT_EQ(recorder.steps.size(), 1u);
-  EXPECT_LE(recorder.steps[0].work.factorisations, 2);
-}
-
-TEST(Continuation, VisitsTheLoadStepsInOrder) {
-  Pull pull(4);
-  Recorder recorder;
-  Observer* observers[] = {&recorder};
-  ContinuationOptions options;
-  options.from = 1;
-  options.to = 2;
-  options.steps = 4;
-  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(1), options, {}, observers);
-  EXPECT_EQ(report.steps.size(), 4u);
-  EXPECT_EQ(recorder.begun, (std::vector<double>{1.25, 1.5, 1.75, 2}));
-  ASSERT_EQ(recorder.steps.size(), 4u);
-  // springs of rest length t, four of them between 0 and t
-  for (const StepReport& s : recorder.steps) EXPECT_NEAR(s.energy, 4 * 0.5 * std::pow(0.75 * s.t, 2), 1e-12);
-  EXPECT_EQ(recorder.steps[3].load_step, 3);
-}
-
-TEST(Continuation, FailureEndsItAtTheLastConvergedConfiguration) {
-  Pull pull(1);  // the one spring breaks at length 1.8
-  ContinuationOptions options;
-  options.steps = 4;
-  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(2.8), options, {}, {});
-  complete(*pull.p.layout, pull.p.u);
-  EXPECT_EQ(report.status, Status::failed);
-  ASSERT_EQ(report.steps.size(), 3u);
-  EXPECT_NEAR(pull.p.value(1), 1.4, 1e-12);
-}
-
-TEST(Continuation, AdaptiveStepsHalveUntilTheyConverge) {
-  // Same spring: adaptive steps creep towards the break at t = 1.8 / 2.8 and give up at the smallest step.
-  Pull pull(1);
-  ContinuationOptions options;
-  options.adaptive = true;
-  options.smallest = 0.01;
-  const auto report = run_continuation(*pull.p.functional, pull.p.u, pull.boundary(2.8), options, {}, {});
-  complete(*pull.p.layout, pull.p.u);
-  EXPECT_EQ(report.status, Status::failed);
-  EXPECT_GT(pull.p.value(1), 1.8 - 2.8 * 0.02);
-  EXPECT_LE(pull.p.value(1), 1.8);
-  for (std::size_t k = 0; k + 1 < report.steps.size(); ++k) EXPECT_EQ(report.steps[k].status, Status::converged);
 }
 
 }  // namespace

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numeric>
+#include <vector>
 
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/product.hpp"
 #include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/generators.hpp"
+#include "karcher/mesh/partition.hpp"
 #include "solve/small_problem.hpp"
 
 namespace karcher {
@@ -60,6 +63,57 @@ TEST(StepMass, MeasuresStepsInRnByHalfTheSizeOfTheMeshAndAllOthersAsTheyAre) {
   EXPECT_NEAR(step_mass_of(manifold_ops<Rotation>(), 20), 3, 1e-14);
   EXPECT_NEAR(step_mass_of(manifold_ops<Product<Euclidean<3>, Rotation>>(), 20), 3 / 100.0 + 3, 1e-14);
   EXPECT_NEAR(step_mass_of(manifold_ops<Product<Rotation, Euclidean<1>>>(), 20), 1 / 100.0 + 3, 1e-14);
+}
+
+/// Positions of second order on a rectangle of 3 by 2, and directions of first order on its left edge, as one of `ranks` sees them.
+Layout two_fields(int rank, int ranks) {
+  GeneratorOptions options;
+  options.name = "rectangle";
+  options.numbers["size"] = {3, 2};
+  options.numbers["cells"] = {3, 4};
+  options.words["shape"] = "quadrilateral";
+  const auto mesh = std::make_shared<const Mesh>(generate(options));
+  const std::vector<Field> fields = {{"x", &manifold_by_name("R3"), Rule::projection, std::make_shared<Space>(mesh, mesh->region("all"), 2)},
+                                     {"n", &manifold_by_name("S2"), Rule::projection, std::make_shared<Space>(mesh, mesh->region("left"), 1)}};
+  return Layout(fields, {{}, {}}, partition_cells(*mesh, ranks), rank, ranks);
+}
+
+TEST(StepMass, MakesFieldsComparableAndFreeOfUnits) {
+  for (const int ranks : {1, 2, 3}) {
+    // A unit move of all nodes in one component: the mean square is 1, of positions in parts of half the diagonal sqrt(13).
+    std::vector<std::vector<double>> sums(2, std::vector<double>(3, 0.0));
+    for (int rank = 0; rank < ranks; ++rank) {
+      const Layout layout = two_fields(rank, ranks);
+      const std::vector<double> mass = step_mass(layout);
+      ASSERT_EQ(mass.size(), static_cast<std::size_t>(layout.local_dofs()));
+      for (int f : {0, 1}) {
+        const std::vector<double> nodal = lumped_mass(*layout.fields()[static_cast<std::size_t>(f)].space);
+        for (int node : layout.local_nodes(f))
+          for (int k = 0; k < layout.fields()[static_cast<std::size_t>(f)].manifold->dim; ++k) {
+            const double m = mass[static_cast<std::size_t>(layout.first_dof(f, node) + k)];
+            EXPECT_NEAR(m, nodal[static_cast<std::size_t>(node)] / (f == 0 ? 6 * 13 / 4.0 : 2.0), 1e-15);
+            if (layout.owns(f, node)) sums[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)] += m;
+          }
+      }
+    }
+    for (std::size_t k : {0, 1, 2}) EXPECT_NEAR(sums[0][k], 4 / 13.0, 1e-14);
+    for (std::size_t k : {0, 1}) EXPECT_NEAR(sums[1][k], 1, 1e-14);
+  }
+}
+
+TEST(LumpedMass, OfAPointIsOne) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dim = 1;
+  mesh->nodes = {{{0, 0, 0}}, {{2, 0, 0}}};
+  Cell line;
+  line.kind = CellKind::line;
+  line.nodes = {0, 1};
+  mesh->cells = {line};
+  Cell point;
+  point.kind = CellKind::vertex;
+  point.nodes = {1};
+  mesh->regions["end"] = {"end", 0, {point}};
+  EXPECT_EQ(lumped_mass(Space(mesh, mesh->regions.at("end"), 1)), std::vector<double>{1});
 }
 
 }  // namespace

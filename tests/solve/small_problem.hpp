@@ -100,7 +100,7 @@ struct SmallProblem {
   /// initial: ambient coordinates node after node; fixed: tangent components node after node (may be empty)
   SmallProblem(int cells, const ManifoldOps& manifold, CellFunction function, std::vector<double> initial, std::vector<char> fixed = {}) {
     mesh = line_mesh(cells);
-    field.name = "u";
+    field.name = std::string("u");
     field.manifold = &manifold;
     field.space = std::make_shared<Space>(mesh, mesh->regions.at("all"), 1);
     const std::vector<Field> fields{field};

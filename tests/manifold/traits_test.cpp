@@ -172,7 +172,7 @@ TEST(Traits, DirectorsForFilesAreThoseForProbes) {
     m.quantities[k + 1].value(q.e.data(), b);
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(a[i], b[i], 1e-15);
-      EXPECT_EQ(b[i], Rotation::director(q, static_cast<int>(k))[i]);
+      EXPECT_NEAR(b[i], Rotation::director(q, static_cast<int>(k))[i], 1e-15);
     }
   }
 }

@@ -19,7 +19,7 @@
 #include "assembly/shell_projection.hpp"
 #include "counted.hpp"
 #include "karcher/assembly/functional.hpp"
-#include "karcher/assembly/shell_term.hpp"
+#include "karcher/catalogue/catalogue.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/generators.hpp"
@@ -159,7 +159,7 @@ struct Bottle {
         u.values[1].push_back(x);
     layout = std::make_shared<Layout>(fields, fixed, CellRanks(mesh->cells.size(), 0), 0, 1);
     std::vector<std::unique_ptr<Term>> terms;
-    terms.push_back(make_shell_term(input));
+    terms.push_back(make_term("cosserat-shell", input));
     functional = std::make_unique<Functional>(layout, std::move(terms));
   }
 };

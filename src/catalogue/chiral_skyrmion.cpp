@@ -13,7 +13,6 @@ std::vector<Entry> chiral_skyrmion_entries() {
   info.fields = {{"field", {&manifold_ops<Sphere<2>>()}, "magnetisation"}};
   info.parameters = {{"kappa", "1/length", "strength of the Dzyaloshinskii-Moriya interaction", {}}, {"h", "1/length^2", "field along e3", {}}};
   info.parts = {"exchange", "chiral", "zeeman"};
-  info.quantities = {{"charge", "1/area", 1, "topological charge density"}};
   return {{info, &DensityTerms<ChiralSkyrmion, Sphere<2>>::make<2>}};
 }
 

@@ -26,18 +26,6 @@ std::unique_ptr<Term> with_dimension(const TermInput& input, const Make& make) {
   return term;
 }
 
-/// make<I...>() with the interpolations of the term's fields, whose manifolds are M, ...
-template <int D, class... M, class... Known, class Make>
-std::unique_ptr<Term> with_rules(const TermInput& input, const Make& make, std::type_identity<Known>... known) {
-  constexpr std::size_t slot = sizeof...(Known);
-  if constexpr (slot == sizeof...(M)) {
-    return make.template operator()<Known...>();
-  } else {
-    return with_rule<std::tuple_element_t<slot, std::tuple<M...>>, D>(
-        input.field(slot), [&]<class I>() { return with_rules<D, M...>(input, make, known..., std::type_identity<I>{}); });
-  }
-}
-
 /// The term of Density<P> on fields with values in M, ..., on regions of the dimensions Ds.
 template <template <class> class Density, class... M>
 struct DensityTerms {

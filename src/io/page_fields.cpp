@@ -244,7 +244,8 @@ void add_energies(const Store& store, Fields& fields) {
     return std::find(store.terms.begin(), store.terms.end(), name.substr(prefix.size())) != store.terms.end();
   };
   const auto counts = [&](const std::string& name) {
-    return is_term(name) && std::find(store.loads.begin(), store.loads.end(), name.substr(prefix.size())) == store.loads.end();
+    return name.starts_with(prefix) && is_term(name) &&
+           std::find(store.loads.begin(), store.loads.end(), name.substr(prefix.size())) == store.loads.end();
   };
   if (std::any_of(names.begin(), names.end(), counts)) {
     fields.add_cell_field("energy", "energy density", "", [&](int part, const StoredValues& v, std::size_t cell) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "karcher/io/atomic_file.hpp"
 #include "karcher/io/summary.hpp"
 #include "karcher/karcher.hpp"
 #include "temporary_directory.hpp"
@@ -86,6 +87,28 @@ TEST(Solution, OfAMapIsThatOfTheFrontDoorForOneField) {
   EXPECT_TRUE(s.converged());
   EXPECT_EQ(s.report().steps.back().energy, expected.energy);
   EXPECT_EQ(s.states().back().values, v.values().values);
+}
+
+struct Telling : HalfSquare {
+  static std::vector<QuantityInfo> quantity_infos() { return {{"slope", "1", 1, "slope of the string"}}; }
+  template <class Jet>
+  auto quantities(const Jet& u) const {
+    return std::array{u.d[0][0]};
+  }
+};
+
+TEST(Solution, WritesWhatADensityTellsBesidesItsEnergy) {
+  const TemporaryDirectory directory;
+  Problem p = pulled_string();
+  p.terms = {integral<1>(Telling{}, FieldOf<Euclidean<1>>{})};
+  const Solution s = solve(p);
+  const auto& term = *s.functional().terms().front();
+  ASSERT_EQ(term.info().quantities.size(), 1u);
+  for (int b = 0; b < term.batch_count(); ++b)
+    for (int lane = 0; lane < term.batch(b).cells_used; ++lane)
+      EXPECT_NEAR(term.batch_quantities(s.states().back(), b)[0][static_cast<std::size_t>(lane)], 1, 1e-12);
+  s.save(directory.path());
+  EXPECT_NE(read_whole(directory / "solution_0004.vtu").find("slope.integral"), std::string::npos);
 }
 
 TEST(Solution, WritesWhatTheProgramWrites) {

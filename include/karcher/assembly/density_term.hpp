@@ -4,12 +4,13 @@
 ///
 /// A density is called with a jet for every field, operator()(u...), and returns W; or it has parts(u...), which returns a std::array of the parts of W. Where it takes
 /// one argument more, that is the reference configuration at the point (reference_point.hpp), before the fields: operator()(s, u...), parts(s, u...).
-/// quantities([s,] u...) may give other numbers at the point, as an array.
+/// quantities([s,] u...) may give other numbers at the point, as an array, and static quantity_infos() says what they are, component after component.
 /// A model has at<P>(span<const P> parameters), the density at a point, P double or a pack.
 /// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules.
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -115,6 +116,12 @@ class DensityTerm : public Term {
         fields_(input.fields),
         batches_(
             input, [&](CellKind kind) { return default_degree(input, kind); }, placed) {
+    if constexpr (requires { DensityAtPoint::quantity_infos(); }) {
+      info_.quantities = DensityAtPoint::quantity_infos();
+      std::size_t components = 0;
+      for (const QuantityInfo& q : info_.quantities) components += static_cast<std::size_t>(q.components);
+      assert(components == std::tuple_size_v<Quantities> && "quantity_infos() describes all components that quantities() gives, and no other");
+    }
     for (const auto& key : parameter_keys) parameters_.push_back(input.parameters.at(key));
     values_.resize(batches_.point_count() * parameters_.size());
     compute_parameters(input.t, true);

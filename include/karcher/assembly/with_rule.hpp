@@ -4,6 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <tuple>
+#include <type_traits>
+
+#include "karcher/assembly/term.hpp"
+#include "karcher/assembly/term_input.hpp"
 #include "karcher/error.hpp"
 #include "karcher/field/field.hpp"
 #include "karcher/interpolation/rules.hpp"
@@ -24,6 +30,18 @@ auto with_rule(const Field& field, Make make) {
     else
       throw InputError(
           fmt::format("Field \"{}\": {} has no projection from its ambient space; use interpolation = \"geodesic\".", field.name, M::name));
+  }
+}
+
+/// make<I...>() with the interpolations of a term's fields, whose manifolds are M, ..., in the order of its slots.
+template <int D, class... M, class... Known, class Make>
+std::unique_ptr<Term> with_rules(const TermInput& input, const Make& make, std::type_identity<Known>... known) {
+  constexpr std::size_t slot = sizeof...(Known);
+  if constexpr (slot == sizeof...(M)) {
+    return make.template operator()<Known...>();
+  } else {
+    return with_rule<std::tuple_element_t<slot, std::tuple<M...>>, D>(
+        input.field(slot), [&]<class I>() { return with_rules<D, M...>(input, make, known..., std::type_identity<I>{}); });
   }
 }
 

@@ -7,7 +7,9 @@
 #include <array>
 #include <numbers>
 #include <span>
+#include <vector>
 
+#include "karcher/energy/energy_info.hpp"
 #include "karcher/energy/surface_derivatives.hpp"
 
 namespace karcher {
@@ -28,6 +30,7 @@ struct ChiralSkyrmion {
     return std::array{exchange, chiral, zeeman};
   }
 
+  static std::vector<QuantityInfo> quantity_infos() { return {{"charge", "1/area", 1, "topological charge density"}}; }
   /// Topological charge per area, u . (d_1 u x d_2 u) / 4 pi with the orientation of the normal: its integral counts how often u covers the sphere.
   template <class S, class Jet>
   auto quantities(const S& s, const Jet& u) const {

@@ -66,10 +66,9 @@ struct EnergyInfo {
   std::vector<FieldSlot> fields;
   std::vector<Parameter> parameters;
   std::vector<Choice> choices;
-  std::vector<std::string> parts;
-  std::vector<QuantityInfo> quantities;
-  bool lame = false;  ///< mu and lambda may be given as young and poisson instead (the reader converts)
-  bool load = false;  ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
+  std::vector<std::string> parts;  ///< of the energy, where the density can tell them apart
+  bool lame = false;               ///< mu and lambda may be given as young and poisson instead (the reader converts)
+  bool load = false;               ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
 
   std::string term_name() const { return load ? type + "-load" : type; }
 };

@@ -40,18 +40,6 @@ PointFunction point_function(F f) {
   return p;
 }
 
-/// make<I...>() with the interpolations of the term's fields.
-template <int D, class... M, class... Known, class Make>
-std::unique_ptr<Term> with_rules(const TermInput& input, const Make& make, std::type_identity<Known>... known) {
-  constexpr std::size_t slot = sizeof...(Known);
-  if constexpr (slot == sizeof...(M)) {
-    return make.template operator()<Known...>();
-  } else {
-    return with_rule<std::tuple_element_t<slot, std::tuple<M...>>, D>(
-        input.field(slot), [&]<class I>() { return with_rules<D, M...>(input, make, known..., std::type_identity<I>{}); });
-  }
-}
-
 template <class M>
 FieldSlot slot(FieldOf<M> field) {
   return {.key = "field", .manifolds = {&manifold_ops<M>()}, .description = "", .moves = field.moves};
@@ -121,7 +109,7 @@ TermSpec integral(Density density, FieldOf<M>... fields) {
   term.fields = {fields.index...};
   term.path = "the integral";
   term.make = [density](TermInput input) {
-    return statement_detail::with_rules<D, M...>(input, [&]<class... I>() -> std::unique_ptr<Term> {
+    return with_rules<D, M...>(input, [&]<class... I>() -> std::unique_ptr<Term> {
       return std::make_unique<DensityTerm<FixedDensity<Density>, D, I...>>(TermInfo{"integral", {}, {}, false, {}}, input,
                                                                            FixedDensity<Density>{density}, std::vector<std::string>{});
     });

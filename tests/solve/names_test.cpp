@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "karcher/manifold/sphere.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "karcher/solve/exchange.hpp"
 #include "karcher/solve/norm.hpp"
+#include "karcher/solve/petsc.hpp"
 #include "solve/small_problem.hpp"
 
 namespace karcher {
@@ -69,11 +71,13 @@ testing::CellValue alike(const std::vector<const double*>& u, const Vec3<double>
 
 TEST(Names, OfAManifoldDoNotChangeTheNormOfSteps) {
   const std::vector<double> values(3 * 1001);
-  const std::vector<double> line = step_mass(*testing::SmallProblem(1000, manifold_ops<Line>(), {}, values).layout);
+  const testing::SmallProblem p(1000, manifold_ops<Line>(), {}, values);
+  const std::vector<double> line = step_mass(*p.layout);
   EXPECT_EQ(line, step_mass(*testing::SmallProblem(1000, manifold_ops<RP2>(), {}, values).layout));
   double sum = 0;
-  for (const double m : line) sum += m;
-  EXPECT_NEAR(sum, 2, 1e-12);  // one for each tangent coordinate: the mean square of an angle is measured by 1, not by the size of the mesh
+  for (std::size_t d = 0; d < static_cast<std::size_t>(p.layout->owned_dofs()); ++d) sum += line[d];
+  EXPECT_NEAR(sum_over_ranks(sum), 2,
+              1e-12);  // one for each tangent coordinate: the mean square of an angle is measured by 1, not by the size of the mesh
 }
 
 TEST(Names, OfAManifoldDoNotChangeAMinimisation) {
@@ -90,7 +94,12 @@ TEST(Names, OfAManifoldDoNotChangeAMinimisation) {
   };
   const auto line = minimum(manifold_ops<Line>()), rp2 = minimum(manifold_ops<RP2>());
   EXPECT_EQ(line.first, rp2.first);
-  EXPECT_EQ(line.second, rp2.second);
+  if (world_size() == 1) {
+    EXPECT_EQ(line.second, rp2.second);
+    return;
+  }
+  // MUMPS adds the contributions of several ranks as they arrive.
+  for (std::size_t i = 0; i < line.second[0].size(); ++i) EXPECT_NEAR(line.second[0][i], rp2.second[0][i], 1e-12);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/partition.hpp"
+#include "karcher/solve/collectives.hpp"
 #include "solve/small_problem.hpp"
 
 namespace karcher {
@@ -53,9 +54,12 @@ TEST(LumpedMass, OfTheLinearTriangleIsAThirdOfItsAreaAtEachVertex) {
   for (int e = 3; e < 6; ++e) EXPECT_NEAR(in_cell[static_cast<std::size_t>(e)], 3.0 * 32 / 114, 1e-13);
 }
 
+/// Sum over the unknowns of all ranks.
 double step_mass_of(const ManifoldOps& manifold, int cells) {
-  return total(
-      step_mass(*testing::SmallProblem(cells, manifold, {}, std::vector<double>(static_cast<std::size_t>((cells + 1) * manifold.ambient))).layout));
+  const testing::SmallProblem p(cells, manifold, {}, std::vector<double>(static_cast<std::size_t>((cells + 1) * manifold.ambient)));
+  std::vector<double> mass = step_mass(*p.layout);
+  mass.resize(static_cast<std::size_t>(p.layout->owned_dofs()));
+  return sum_over_ranks(total(mass));
 }
 
 TEST(StepMass, MeasuresStepsInRnByHalfTheSizeOfTheMeshAndAllOthersAsTheyAre) {

@@ -3,7 +3,6 @@
 #include <petscsf.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "karcher/solve/petsc.hpp"
 #include "solve/check_petsc.hpp"
@@ -14,7 +13,7 @@ struct StarForest::Graph {
   PetscSF forest = nullptr;
   MPI_Datatype entry = MPI_DATATYPE_NULL;
   int width = 1;
-  std::vector<int> degrees;  ///< leaves of every root
+  std::vector<int> root_of;  ///< of every contribution, in the order in which PetscSFGather brings them: root after root, rank after rank
 
   Graph() = default;
   Graph(const Graph&) = delete;
@@ -46,7 +45,7 @@ StarForest::StarForest(std::span<const int> leaves, const std::vector<int>& offs
   const PetscInt* degrees = nullptr;
   check_petsc(PetscSFComputeDegreeBegin(graph->forest, &degrees));
   check_petsc(PetscSFComputeDegreeEnd(graph->forest, &degrees));
-  graph->degrees.assign(degrees, degrees + roots);
+  for (int i = 0; i < roots; ++i) graph->root_of.insert(graph->root_of.end(), static_cast<std::size_t>(degrees[i]), i);
   graph_ = graph;
 }
 
@@ -63,14 +62,12 @@ void StarForest::copy_to_roots(const double* leaves, double* roots) const {
 void StarForest::add_to_roots(const double* leaves, double* roots) const {
   // PetscSFReduce would add in the order of arrival: gathered, the contributions to a root stand in the order of the ranks.
   const auto width = static_cast<std::size_t>(graph_->width);
-  const auto all = static_cast<std::size_t>(std::accumulate(graph_->degrees.begin(), graph_->degrees.end(), 0));
-  std::vector<double> contributions(all * width);
+  std::vector<double> contributions(graph_->root_of.size() * width);
   check_petsc(PetscSFGatherBegin(graph_->forest, graph_->entry, leaves, contributions.data()));
   check_petsc(PetscSFGatherEnd(graph_->forest, graph_->entry, leaves, contributions.data()));
   const double* next = contributions.data();
-  for (std::size_t i = 0; i < graph_->degrees.size(); ++i)
-    for (int leaf = 0; leaf < graph_->degrees[i]; ++leaf)
-      for (std::size_t k = 0; k < width; ++k) roots[i * width + k] += *next++;
+  for (const int root : graph_->root_of)
+    for (std::size_t k = 0; k < width; ++k) roots[static_cast<std::size_t>(root) * width + k] += *next++;
 }
 
 }  // namespace karcher

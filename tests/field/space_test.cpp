@@ -126,9 +126,11 @@ TEST(Space, CarriesThePartsOfItsCellsAndNothingElse) {
     const Space left(mesh, mesh->region("left"), p);
     for (const Cell& c : mesh->region("right").cells) EXPECT_TRUE(left.entity_nodes(c).empty());
     for (const Cell& c : mesh->cells) EXPECT_TRUE(left.entity_nodes(c).empty());
-    for (int d = 0; d <= 1; ++d)
-      for (const Cell& e : select(*mesh, "edges", d, true, [](const Vec3<double>& x) { return x[0] < 1e-9; }).cells)
-        EXPECT_EQ(left.entity_nodes(e).size(), static_cast<std::size_t>(node_count(e.kind, p)));
+    for (int d = 0; d <= 1; ++d) {
+      const Region parts = select(*mesh, "edges", d, true, [](const Vec3<double>& x) { return x[0] < 1e-9; });
+      EXPECT_EQ(parts.cells.size(), d == 0 ? 12u : 23u);  // of 3 by 2 squares, cut into triangles
+      for (const Cell& e : parts.cells) EXPECT_EQ(left.entity_nodes(e).size(), static_cast<std::size_t>(node_count(e.kind, p)));
+    }
   }
   // Three edges around a triangle do not make the triangle theirs.
   const auto sheet = make("rectangle", {{"cells", {1, 1}}}, "triangle");

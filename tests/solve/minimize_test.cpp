@@ -48,6 +48,7 @@ TEST(Minimize, EnergyNeverRises) {
   minimize(*p.functional, p.u, {}, observers);
   ASSERT_GT(recorder.records.size(), 5u);
   for (std::size_t i = 1; i < recorder.records.size(); ++i) EXPECT_LE(recorder.records[i].energy, recorder.records[i - 1].energy + 1e-12);
+  EXPECT_LT(recorder.records.back().energy, 0.01 * recorder.records.front().energy);
 }
 
 TEST(Minimize, FindsTheLowestEigenvectorOnTheSphere) {

@@ -5,8 +5,12 @@ A code block after a line `<!-- file: tutorials/hello_sphere.cpp -->` must be th
 the lines from the first that contains FIRST to the next that contains LAST. Relative links must lead to a file that exists. CITATION.cff names the version of
 CMakeLists.txt.
 
-    scripts/check_documents.py          report what is wrong (exit code 1)
-    scripts/check_documents.py --update write the quoted files into the blocks
+The rows of a table after `<!-- program: doc --markdown solver -->` are what the program prints with these arguments; a test proves it where there is a program, here it
+is looked at where one is named.
+
+    scripts/check_documents.py                   report what is wrong (exit code 1)
+    scripts/check_documents.py --update          write the quoted files into the blocks
+    scripts/check_documents.py --update PROGRAM  the tables, too: PROGRAM is for instance build/karcher
 """
 import re
 import subprocess
@@ -15,6 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 QUOTE = re.compile(r"(<!-- (file|lines): (\S+)(?: \"(.*?)\" \"(.*?)\")? -->\n```\w*\n)(.*?)(^```$)", re.DOTALL | re.MULTILINE)
+TABLE = re.compile(r"(<!-- program: (.*?) -->\n)((?:\|.*\n)*)")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
@@ -36,7 +41,7 @@ def versions_that_differ():
     return [] if cited == project else [f"CITATION.cff: cites version {cited}, but CMakeLists.txt makes {project}."]
 
 
-def main(update):
+def main(update, program):
     names = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True)
     wrong = versions_that_differ()
     documents = [ROOT / name for name in names.stdout.split()]
@@ -55,7 +60,19 @@ def main(update):
                 wrong.append(f"{here}: the block quoted from {name} differs from the file; `scripts/check_documents.py --update` renews it.")
             return head + truth + end
 
+        def renew_table(match):
+            head, words, table = match.groups()
+            run = subprocess.run([program, *words.split()], capture_output=True, text=True)
+            if run.returncode != 0:
+                wrong.append(f"{here}: the program has nothing to print for `{words}`: {run.stderr.strip()}")
+                return match.group(0)
+            if table != run.stdout and not update:
+                wrong.append(f"{here}: the table of `{words}` differs from the program's; `scripts/check_documents.py --update {program}` renews it.")
+            return head + run.stdout
+
         renewed = QUOTE.sub(renew, text)
+        if program:
+            renewed = TABLE.sub(renew_table, renewed)
         if update and renewed != text:
             document.write_text(renewed)
         for link in LINK.findall(re.sub(r"^```.*?^```$", "", renewed, flags=re.DOTALL | re.MULTILINE)):
@@ -66,4 +83,6 @@ def main(update):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:] == ["--update"]))
+    arguments = sys.argv[1:]
+    update = arguments[:1] == ["--update"]
+    sys.exit(main(update, next(iter(arguments[update:]), None)))

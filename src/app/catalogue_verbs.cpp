@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
-#include "app/schema.hpp"
 #include "app/verbs.hpp"
 #include "karcher/catalogue/catalogue.hpp"
 #include "karcher/io/atomic_file.hpp"
@@ -17,23 +15,6 @@ namespace karcher::app {
 namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-/// Words of a long text on lines of at most `width` letters.
-void print_wrapped(const std::string& text, std::size_t indent, std::size_t width = 110) {
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string out;
-    for (std::string word; words >> word;) {
-      if (!out.empty() && indent + out.size() + 1 + word.size() > width) {
-        fmt::print("{:{}}{}\n", "", indent, out);
-        out.clear();
-      }
-      out += (out.empty() ? "" : " ") + word;
-    }
-    fmt::print("{:{}}{}\n", "", indent, out);
-  }
-}
 
 /// Title and directory of every example.
 std::vector<std::pair<std::string, std::string>> examples() {
@@ -52,52 +33,6 @@ std::vector<std::pair<std::string, std::string>> examples() {
   }
   std::sort(all.begin(), all.end());
   return all;
-}
-
-void doc_section(const SectionInfo& s) {
-  fmt::print("{}\n", s.header);
-  print_wrapped(s.description, 0);
-  for (const KeyInfo& k : s.keys) {
-    fmt::print("\n  {} ({}{})\n", k.name, k.type, k.standard == "-" ? std::string(", must be given") : ", default: " + k.standard);
-    print_wrapped(k.description, 6);
-  }
-}
-
-void doc_generators() {
-  fmt::print("[mesh] generate = \"...\" with these arguments (defaults)\n");
-  for (const GeneratorInfo& g : generators()) {
-    fmt::print("\n{}\n", g.name);
-    print_wrapped(g.description, 2);
-    for (const GeneratorArgument& a : g.arguments) {
-      std::string standard;
-      for (const double x : a.numbers) standard += fmt::format("{}{:.10g}", standard.empty() ? "" : ", ", x);
-      if (a.numbers.size() > 1) standard = "[" + standard + "]";
-      fmt::print("    {:<10} {} ({})\n", a.name, a.description, a.is_choice() ? join_names(a.words, ", or ") : standard);
-    }
-    fmt::print("    regions    {}\n", g.regions.empty() ? "all" : "all, " + join_names(g.regions));
-  }
-}
-
-void doc_term(const EnergyInfo& info) {
-  fmt::print("{}\n", info.type);
-  print_wrapped(info.description, 2);
-  std::string dimensions;
-  for (const int d : info.dimensions) dimensions += (dimensions.empty() ? "" : ", ") + std::to_string(d);
-  fmt::print("\n  on          region of dimension {}\n", dimensions);
-  for (const FieldSlot& f : info.fields)
-    fmt::print("  {:<11} field with values in {}: {}\n", f.key, join_names(f.manifold_names(), ", "), f.description);
-  for (const Parameter& p : info.parameters) {
-    std::string facts = p.unit;
-    if (p.size > 1) facts += fmt::format(", {} numbers", p.size);
-    if (p.size == Parameter::ambient) facts += ", as many numbers as the field has coordinates";
-    facts += p.default_value ? fmt::format(", default {}", *p.default_value) : std::string(", must be given");
-    if (p.minimum > -std::numeric_limits<double>::infinity())
-      facts += fmt::format(", {} {}", p.minimum_allowed ? "at least" : "greater than", p.minimum);
-    fmt::print("  {:<11} {} ({})\n", p.name, p.description, facts);
-  }
-  if (info.lame) fmt::print("  {:<11} instead of mu and lambda: Young's modulus and Poisson's ratio\n", "young, poisson");
-  for (const Choice& c : info.choices)
-    fmt::print("  {:<11} {}: {} (default {})\n", c.name, c.description, join_names(c.values, ", "), c.values.front());
 }
 
 }  // namespace
@@ -143,37 +78,6 @@ int list(const std::string& what) {
     throw InputError("There is no list of \"" + what + "\". " + suggestion(what, topics, "Lists"));
   }
   return 0;
-}
-
-int doc(const std::string& key) {
-  if (key.empty()) {
-    for (const SectionInfo& s : schema()) {
-      fmt::print("{:<18} ", s.header);
-      print_wrapped(s.description, 0, 1000);
-    }
-    fmt::print("\nkarcher doc SECTION (for instance solver), mesh.generate, energies.TYPE, loads.TYPE, SECTION.KEY\n");
-    return 0;
-  }
-  std::vector<std::string> known{"mesh.generate"};
-  if (key == "mesh.generate") return doc_generators(), 0;
-  for (const auto& [section, catalogue] : {std::pair("energies", &energy_catalogue()), {"loads", &load_catalogue()}})
-    for (const EnergyInfo& info : *catalogue) {
-      known.push_back(std::string(section) + "." + info.type);
-      if (known.back() == key) return doc_term(info), 0;
-    }
-  for (const SectionInfo& s : schema()) {
-    if (!s.name.empty()) known.push_back(s.name);
-    if (s.name == key) return doc_section(s), 0;
-    for (const KeyInfo& k : s.keys) {
-      if (s.name.empty()) continue;
-      known.push_back(s.name + "." + k.name);
-      if (known.back() != key) continue;
-      fmt::print("{}: {} ({})\n", key, k.type, k.standard == "-" ? "must be given" : "default: " + k.standard);
-      print_wrapped(k.description, 2);
-      return 0;
-    }
-  }
-  throw InputError("There is nothing about \"" + key + "\". " + suggestion(key, known, "Pages"));
 }
 
 int version() {

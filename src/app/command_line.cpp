@@ -116,9 +116,11 @@ int command_line(int argc, char** argv) {
   list_verb.callback([&] { action = [&] { return list(what); }; });
 
   std::string key;
+  bool as_markdown = false;
   CLI::App& doc_verb = *app.add_subcommand("doc", "explain a section or a key of the problem file");
   doc_verb.add_option("KEY", key, "solver, solver.method, mesh.generate, energies.cosserat-shell, ...");
-  doc_verb.callback([&] { action = [&] { return doc(key); }; });
+  doc_verb.add_flag("--markdown", as_markdown, "the keys of a section as a table in Markdown");
+  doc_verb.callback([&] { action = [&] { return doc(key, as_markdown); }; });
 
   CLI::App& version_verb = *app.add_subcommand("version", "print the version");
   version_verb.callback([&] { action = [] { return version(); }; });

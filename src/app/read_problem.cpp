@@ -26,7 +26,7 @@ class Reader {
 
   Problem read() {
     const Place whole{root_.place.file, 1, 1};
-    Section top(&root_, "", whole, key_names(""));
+    Section top(&root_, "", whole, section_info("").keys);
     problem_.title = top.text("title", problem_.file.stem().string());
     if (problem_.title.empty()) refuse(top.place("title"), "title must not be empty.");
     note("title", Value::of(problem_.title));
@@ -61,8 +61,8 @@ class Reader {
   }
   void note(const std::string& key, Value value) { problem_.values.append(key, {}, std::move(value)); }
   void note(const Section& section) { note(section.path(), section.resolved()); }
-  Section section(const std::string& name, std::vector<std::string> more = {}) const {
-    std::vector<std::string> keys = key_names(name);
+  Section section(const std::string& name, const std::vector<KeyInfo>& more = {}) const {
+    std::vector<KeyInfo> keys = section_info(name).keys;
     keys.insert(keys.end(), more.begin(), more.end());
     const Value* v = find(name);
     return Section(v, name, v ? v->place : Place{root_.place.file, 1, 1}, std::move(keys));
@@ -75,8 +75,8 @@ class Reader {
     if (!v->is(Value::Kind::table)) refuse(v->place, name + " must be tables [" + name + ".NAME], not " + v->kind_name() + ".");
     for (const Entry& e : v->entries)
       if (!e.value.is(Value::Kind::table))
-        refuse(e.place, name + "." + e.key + " must be a table [" + name + ".NAME] with the keys " + join_names(key_names(name)) + ", not " +
-                            e.value.kind_name() + ".");
+        refuse(e.place, name + "." + e.key + " must be a table [" + name + ".NAME] with the keys " + join_names(key_names(section_info(name).keys)) +
+                            ", not " + e.value.kind_name() + ".");
     return v->entries;
   }
   const std::vector<Value>& array_of_tables(const std::string& name) const {
@@ -101,12 +101,12 @@ class Reader {
     const Value* v = find("mesh");
     const Entry* generate = v->is(Value::Kind::table) ? v->find("generate") : nullptr;
     const GeneratorInfo* info = nullptr;
-    std::vector<std::string> arguments;
+    std::vector<KeyInfo> arguments;
     if (generate) {
       if (!generate->value.is(Value::Kind::text))
         refuse(generate->value.place, "mesh.generate must be a string, not " + generate->value.kind_name() + ".");
       info = &at_place(generate->value.place, [&]() -> const GeneratorInfo& { return generator(generate->value.text); });
-      for (const GeneratorArgument& a : info->arguments) arguments.push_back(a.name);
+      for (const GeneratorArgument& a : info->arguments) arguments.push_back(generator_key(a));
     }
     Section s = section("mesh", arguments);
     spec.place = s.place();
@@ -123,16 +123,24 @@ class Reader {
       for (const GeneratorArgument& a : info->arguments) generator_argument(s, a, generator);
       spec.make = [generator] { return karcher::generate(generator); };
     }
-    spec.refine = s.integer("refine", 0, 0, 20);
+    spec.refine = s.integer("refine");
     note(s);
+  }
+
+  /// The generator's entry as a part of the table of keys.
+  static KeyInfo generator_key(const GeneratorArgument& a) {
+    if (a.is_choice()) return {.name = a.name, .kind = KeyKind::word, .standard = a.words.front(), .words = a.words};
+    std::vector<Value> numbers;
+    for (const double x : a.numbers) numbers.push_back(Value::of(x));
+    return {.name = a.name, .kind = KeyKind::constant, .standard = numbers, .size = a.numbers.size()};
   }
 
   void generator_argument(Section& s, const GeneratorArgument& a, GeneratorOptions& generator) {
     if (a.is_choice()) {
-      generator.words[a.name] = s.word(a.name, a.words, a.words.front());
+      generator.words[a.name] = s.word(a.name);
       return;
     }
-    const std::vector<double> values = s.constants(a.name, problem_.scope, a.numbers.size(), a.numbers);
+    const std::vector<double> values = s.constants(a.name, problem_.scope);
     for (const double x : values) {
       if (a.integer && (x != std::floor(x) || std::abs(x) > 1e8)) refuse(s.place(a.name), s.path(a.name) + " must be a whole number.");
       if (x < a.minimum || (x == a.minimum && !a.minimum_allowed))
@@ -148,16 +156,16 @@ class Reader {
   void regions() {
     Value all;
     for (const Entry& e : named_tables("regions")) {
-      Section s(&e.value, "regions." + e.key, e.value.place, key_names("regions"));
+      Section s(&e.value, "regions." + e.key, e.value.place, section_info("regions").keys);
       if (e.key == "all") refuse(e.place, "the region \"all\" is the whole mesh and cannot be defined anew.");
       RegionSpec& spec = problem_.regions.emplace_back();
       spec.name = e.key;
       spec.place = e.place;
-      spec.dim = s.integer("dim", {}, 0, 3);
+      spec.dim = s.integer("dim");
       const Expression where = s.expression("where", problem_.scope);
       spec.where = [where](const Vec3<double>& x) { return where(x, 0) != 0; };
       if (where.uses_t()) refuse(s.place("where"), s.path("where") + " must not depend on t.");
-      spec.boundary = s.flag("boundary", false);
+      spec.boundary = s.flag("boundary");
       all.append(e.key, {}, s.resolved());
     }
     if (!all.entries.empty()) note("regions", all);
@@ -166,34 +174,33 @@ class Reader {
   void reference() {
     if (!find("reference")) return;
     Section s = section("reference");
-    const std::vector<Expression> position = s.expressions("position", problem_.scope, 3);
+    const std::vector<Expression> position = s.expressions("position", problem_.scope);
     for (const Expression& e : position)
       if (e.uses_t()) refuse(s.place("position"), "reference.position must not depend on t.");
     problem_.reference.position = [position](const Vec3<double>& x) {
       return Vec3<double>{{position[0](x, 0), position[1](x, 0), position[2](x, 0)}};
     };
-    problem_.reference.order = s.integer("order", 2, 1, 3);
+    problem_.reference.order = s.integer("order");
     note(s);
   }
 
   void fields(const Section& top) {
     if (!top.has("fields")) top.missing("fields");
     for (const Entry& e : named_tables("fields")) {
-      Section s(&e.value, "fields." + e.key, e.value.place, key_names("fields"));
+      Section s(&e.value, "fields." + e.key, e.value.place, section_info("fields").keys);
       FieldSpec& spec = problem_.fields.emplace_back();
       spec.name = e.key;
       spec.place = e.place;
       const std::string manifold = s.text("manifold");
       spec.manifold = &at_place(s.place("manifold"), [&]() -> const ManifoldOps& { return manifold_by_name(manifold); });
-      spec.order = s.integer("order", 1, 1, 3);
+      spec.order = s.integer("order");
       const bool linear = spec.manifold->linear;
-      const std::string rule =
-          s.word("interpolation", {"projection", "geodesic"}, spec.manifold->has_projection || linear ? "projection" : "geodesic");
+      const std::string rule = s.word("interpolation", spec.manifold->has_projection || linear ? "projection" : "geodesic");
       spec.rule = rule == "projection" ? Rule::projection : Rule::geodesic;
       if (spec.rule == Rule::projection && !linear && !spec.manifold->has_projection)
         refuse(s.place("interpolation"), "points of the ambient space have no closest point in " + manifold +
                                              ", so the projection rule is not defined there; use interpolation = \"geodesic\".");
-      spec.on = s.text("on", "all");
+      spec.on = s.text("on");
       spec.on_place = s.place("on");
       field_sections_.push_back(s);
     }
@@ -202,7 +209,7 @@ class Reader {
 
   void exact() {
     for (const Entry& e : named_tables("exact")) {
-      Section s(&e.value, "exact." + e.key, e.value.place, key_names("exact"));
+      Section s(&e.value, "exact." + e.key, e.value.place, section_info("exact").keys);
       const int field = field_index(e.key, e.place);
       const Value* v = s.raw("value");
       if (!v) s.missing("value");
@@ -256,7 +263,7 @@ class Reader {
   void dirichlet() {
     std::vector<Value> all;
     for (const Value& v : array_of_tables("dirichlet")) {
-      Section s(&v, fmt::format("dirichlet.{}", all.size()), v.place, key_names("dirichlet"));
+      Section s(&v, fmt::format("dirichlet.{}", all.size()), v.place, section_info("dirichlet").keys);
       read_dirichlet(s);
       all.push_back(s.resolved());
     }
@@ -330,8 +337,8 @@ class Reader {
   /// Tangent coordinates are the body rotation vector: with the axis e_k of the body free, a step turns about d_k, which stays where it is.
   std::vector<DirichletSpec::Component> axis_free(const Value& v, const std::string& key, const ManifoldOps& m) const {
     using Component = DirichletSpec::Component;
-    Section s(&v, key, v.place, {"axis-free"});
-    const std::string axis = s.word("axis-free", {"e1", "e2", "e3"});
+    Section s(&v, key, v.place, {{.name = "axis-free", .kind = KeyKind::word, .words = {"e1", "e2", "e3"}}});
+    const std::string axis = s.word("axis-free");
     if (!m.body_axes) refuse(v.place, key + ": axis-free is for rotations (SO3), not for " + m.name + ".");
     std::vector<Component> components(3, Component::initial);
     components[static_cast<std::size_t>(axis[1] - '1')] = Component::free;
@@ -341,11 +348,11 @@ class Reader {
   void continuation() {
     Section s = section("continuation");
     ContinuationOptions& c = problem_.continuation;
-    c.from = s.constant("from", problem_.scope, c.from);
-    c.to = s.constant("to", problem_.scope, c.to);
-    c.steps = s.integer("steps", c.steps, 1, 1000000);
-    c.adaptive = s.flag("adaptive", c.adaptive);
-    c.smallest = s.number("smallest", c.smallest);
+    c.from = s.constant("from", problem_.scope);
+    c.to = s.constant("to", problem_.scope);
+    c.steps = s.integer("steps");
+    c.adaptive = s.flag("adaptive");
+    c.smallest = s.number("smallest");
     for (const std::string& sentence : c.validate()) refuse(s.place(), "continuation: " + sentence);
     note(s);
   }
@@ -357,18 +364,18 @@ class Reader {
     const auto check = [&](const std::string& key) {
       for (const std::string& sentence : o.validate()) refuse(s.place(key), s.path(key) + ": " + sentence);
     };
-    const auto text = [&](const char* key, std::string& x) { x = s.text(key, x), check(key); };
-    const auto number = [&](const char* key, double& x) { x = s.number(key, x), check(key); };
+    const auto text = [&](const char* key, std::string& x) { x = s.text(key), check(key); };
+    const auto number = [&](const char* key, double& x) { x = s.number(key), check(key); };
     text("method", o.method);
     text("subproblem", o.subproblem);
     text("norm", o.norm);
     number("gradient_tolerance", o.gradient_tolerance);
     number("absolute_gradient_tolerance", o.absolute_gradient_tolerance);
     number("step_tolerance", o.step_tolerance);
-    o.max_iterations = s.integer("max_iterations", o.max_iterations, 0, 1000000000), check("max_iterations");
+    o.max_iterations = s.integer("max_iterations"), check("max_iterations");
     number("initial_radius", o.initial_radius);
-    o.max_corrections = s.integer("max_corrections", o.max_corrections, 0, 1000000), check("max_corrections");
-    o.escape = s.flag("escape", o.escape);
+    o.max_corrections = s.integer("max_corrections"), check("max_corrections");
+    o.escape = s.flag("escape");
     if (o.method == "gradient-flow" && !(problem_.continuation.to > problem_.continuation.from))
       refuse(s.place("method"), "a gradient flow needs a time interval: continuation.to must be greater than continuation.from.");
     note(s);
@@ -377,12 +384,11 @@ class Reader {
   void quadrature() {
     if (!find("quadrature")) return;
     Section s = section("quadrature");
-    const int most = 30;
     for (const CellKind kind : {CellKind::line, CellKind::triangle, CellKind::quadrilateral, CellKind::tetrahedron, CellKind::hexahedron}) {
       const std::string own(name(kind));
       const std::string key = s.has(own) ? own : "degree";
       if (!s.has(key)) continue;
-      const int degree = s.integer(key, {}, 0, most);
+      const int degree = s.integer(key);
       at_place(s.place(key), [&] { karcher::quadrature(kind, degree); });
       problem_.quadrature[kind] = degree;
     }
@@ -393,20 +399,20 @@ class Reader {
     if (!exact_resolved_.entries.empty()) note("exact", exact_resolved_);
     std::vector<Value> all;
     for (const Value& v : array_of_tables("probes")) {
-      Section s(&v, fmt::format("probes.{}", all.size()), v.place, key_names("probes"));
+      Section s(&v, fmt::format("probes.{}", all.size()), v.place, section_info("probes").keys);
       ProbeSpec spec;
       spec.place = s.place();
       spec.name = s.text("name");
       for (const ProbeSpec& other : problem_.probes)
         if (other.name == spec.name) refuse(s.place("name"), "there is a probe \"" + spec.name + "\" already (" + other.place.text() + ").");
       spec.field = field_index(s.text("field"), s.place("field"));
-      const std::vector<double> at = s.constants("at", problem_.scope, 3);
+      const std::vector<double> at = s.constants("at", problem_.scope);
       for (int i = 0; i < 3; ++i) spec.at[i] = at[static_cast<std::size_t>(i)];
       const ManifoldOps& m = *problem_.fields[static_cast<std::size_t>(spec.field)].manifold;
       std::vector<std::string> quantities{"value"};
       if (m.linear) quantities.push_back("displacement");
       for (const Quantity& q : m.quantities) quantities.push_back(q.name);
-      spec.quantity = s.word("quantity", quantities, "value");
+      spec.quantity = s.word("quantity", {}, quantities);
       if (s.has("at")) spec.place = s.place("at");
       problem_.probes.push_back(spec);
       all.push_back(s.resolved());
@@ -428,9 +434,9 @@ class Reader {
     if (std::filesystem::exists(o.directory) && !std::filesystem::is_directory(o.directory))
       refuse(options_.output.empty() ? s.place("directory") : Place{"--output", 0, 0},
              "the directory of results, " + o.directory.string() + ", is a file.");
-    o.vtu = s.flag("vtu", o.vtu);
-    o.report = s.flag("report", o.report);
-    o.every = s.integer("every", o.every, 1, 1000000);
+    o.vtu = s.flag("vtu");
+    o.report = s.flag("report");
+    o.every = s.integer("every");
     note(s);
   }
 

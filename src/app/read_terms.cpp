@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/schema.hpp"
 #include "app/section.hpp"
 #include "karcher/catalogue/catalogue.hpp"
 #include "karcher/text.hpp"
@@ -88,18 +89,31 @@ void point_parameter(Section& s, const Parameter& p, const ManifoldOps& m, const
   }
 }
 
+/// The catalogue's entry as a part of the table of keys.
+std::vector<KeyInfo> term_keys(const std::string& section, const EnergyInfo& info) {
+  std::vector<KeyInfo> keys = section_info(section).keys;
+  for (const FieldSlot& f : info.fields) keys.push_back({.name = f.key});
+  for (const Parameter& p : info.parameters) {
+    KeyInfo& key = keys.emplace_back(KeyInfo{.name = p.name, .kind = p.point ? KeyKind::point : KeyKind::expression});
+    if (p.default_value) key.standard = *p.default_value;
+  }
+  if (info.lame)
+    for (const char* name : {"young", "poisson"}) keys.push_back({.name = name, .kind = KeyKind::expression});
+  for (const Choice& c : info.choices) keys.push_back({.name = c.name, .kind = KeyKind::word, .standard = c.values.front(), .words = c.values});
+  return keys;
+}
+
 void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const ProblemFile& problem, ParameterValues& parameters) {
   const ManifoldOps& m = *problem.fields[static_cast<std::size_t>(spec.fields.front())].manifold;
   if (p.point) return point_parameter(s, p, m, problem.scope, parameters);
   const Place place = s.place(p.name);
   if (p.size == 1) {
-    const Expression e = s.expression(p.name, problem.scope, p.default_value);
+    const Expression e = s.expression(p.name, problem.scope);
     parameters[p.name] = in_range(e, p, s.path(p.name), place);
     return;
   }
   const auto size = static_cast<std::size_t>(p.size == Parameter::ambient ? m.ambient : p.size);
-  const std::vector<double> standard = p.default_value ? std::vector<double>(size, *p.default_value) : std::vector<double>();
-  const std::vector<Expression> e = s.expressions(p.name, problem.scope, size, standard);
+  const std::vector<Expression> e = s.expressions(p.name, problem.scope, size);
   for (std::size_t i = 0; i < size; ++i)
     parameters[fmt::format("{}[{}]", p.name, i)] = in_range(e[i], p, fmt::format("{}.{}", s.path(p.name), i), place);
 }
@@ -130,15 +144,6 @@ int field_index(const ProblemFile& problem, const std::string& name, const Place
   refuse(place, "there is no field \"" + name + "\". " + suggestion(name, names, "Fields"));
 }
 
-std::vector<std::string> term_keys(const EnergyInfo& info) {
-  std::vector<std::string> keys{"type", "on"};
-  for (const FieldSlot& f : info.fields) keys.push_back(f.key);
-  for (const Parameter& p : info.parameters) keys.push_back(p.name);
-  if (info.lame) keys.insert(keys.end(), {"young", "poisson"});
-  for (const Choice& c : info.choices) keys.push_back(c.name);
-  return keys;
-}
-
 void read_terms(const std::string& section, const std::vector<Value>& tables, ProblemFile& problem) {
   std::vector<Value> resolved;
   for (const Value& table : tables) {
@@ -148,7 +153,7 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     if (!type) refuse(table.place, path + " lacks the key \"type\".");
     if (!type->value.is(Value::Kind::text)) refuse(type->value.place, path + ".type must be a string, not " + type->value.kind_name() + ".");
     const EnergyInfo& info = find_info(section, type->value.text, type->value.place);
-    Section s(&table, path, table.place, term_keys(info));
+    Section s(&table, path, table.place, term_keys(section, info));
 
     TermSpec spec;
     s.text("type");
@@ -156,10 +161,10 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     spec.place = table.place;
     spec.info = info;
     spec.make = [name = info.term_name()](TermInput input) { return make_term(name, std::move(input)); };
-    spec.on = s.text("on", "all");
+    spec.on = s.text("on");
     spec.on_place = s.place("on");
     read_fields(s, info, problem, spec);
-    for (const Choice& c : info.choices) spec.choices[c.name] = s.word(c.name, c.values, c.values.front());
+    for (const Choice& c : info.choices) spec.choices[c.name] = s.word(c.name);
     const bool young = info.lame && (s.has("young") || s.has("poisson"));
     if (young) lame_of_young(s, problem.scope, spec.parameters);
     for (const Parameter& p : info.parameters)

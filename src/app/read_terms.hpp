@@ -12,7 +12,4 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
 /// \throws InputError naming the fields there are and the nearest
 int field_index(const ProblemFile& problem, const std::string& name, const Place& place);
 
-/// All keys that an energy or a load takes, "type" and "on" first.
-std::vector<std::string> term_keys(const EnergyInfo& info);
-
 }  // namespace karcher::app

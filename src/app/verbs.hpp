@@ -64,7 +64,8 @@ struct ViewOptions {
 int view(const ViewOptions& options);
 
 int list(const std::string& what);
-int doc(const std::string& key);
+/// \param as_markdown the keys of a section as a table in Markdown, else text for a terminal
+int doc(const std::string& key, bool as_markdown);
 int version();
 /// Copies an example. \param name of the new directory
 int make_new(const std::string& name, const std::string& example);

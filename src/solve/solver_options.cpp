@@ -17,22 +17,24 @@ std::string known(const std::string& key, const std::string& value, const std::v
   return fmt::format("The solver has no {} \"{}\"; it has {}.", key, value, list);
 }
 
-std::vector<std::string> subproblem_names() {
+}  // namespace
+
+std::vector<std::string> SolverOptions::methods() { return {"trust-region", "gradient-flow"}; }
+std::vector<std::string> SolverOptions::subproblems() {
   std::vector<std::string> names;
-  for (const SubproblemKind& kind : subproblems()) names.push_back(kind.name);
+  for (const SubproblemKind& kind : karcher::subproblems()) names.push_back(kind.name);
   return names;
 }
-
-}  // namespace
+std::vector<std::string> SolverOptions::norms() { return {"mass"}; }
 
 std::vector<std::string> SolverOptions::validate() const {
   std::vector<std::string> wrong;
   const auto add = [&](std::string sentence) {
     if (!sentence.empty()) wrong.push_back(std::move(sentence));
   };
-  add(known("method", method, {"trust-region", "gradient-flow"}));
-  add(known("subproblem", subproblem, subproblem_names()));
-  add(known("norm", norm, {"mass"}));
+  add(known("method", method, methods()));
+  add(known("subproblem", subproblem, subproblems()));
+  add(known("norm", norm, norms()));
   if (!(gradient_tolerance >= 0 && gradient_tolerance < 1)) add(fmt::format("gradient_tolerance must be in [0, 1), but is {}.", gradient_tolerance));
   if (!(absolute_gradient_tolerance >= 0))
     add(fmt::format("absolute_gradient_tolerance must not be negative, but is {}.", absolute_gradient_tolerance));

@@ -34,6 +34,8 @@ struct SolverOptions {
   double initial_radius = 0;               ///< in the norm of steps, which is free of units; 0: 1
   int max_corrections = 20;                ///< for each trial step
   bool escape = false;                     ///< follow a direction of negative curvature when the end point is a saddle
+  /// The words that there are.
+  static std::vector<std::string> methods(), subproblems(), norms();
   /// Sentences that say what is wrong; empty if nothing is.
   std::vector<std::string> validate() const;
 };

@@ -193,7 +193,7 @@ void write_vtu(const std::filesystem::path& file, const GeometricFunction<M, D>&
   if (world_rank() != 0) return;
   OutputModel model;
   model.fields = {u.space().field()};
-  write_vtu(file, Output(model).sample(u.values()).front(), u.values().t);
+  write_vtu(file, OutputSampler(model).sample(u.values()).front(), u.values().t);
 }
 
 }  // namespace karcher

@@ -47,7 +47,7 @@ double measure_of(const ReferenceGeometry& reference, const Cell& cell) {
 }
 
 /// A cell that has an output node, and the node's number there.
-struct Place {
+struct NodeOfCell {
   int cell = -1, local = 0;
 };
 
@@ -57,7 +57,7 @@ bool has_array(const Field& field, const std::string& name) {
 
 }  // namespace
 
-struct Output::Part {
+struct OutputSampler::Part {
   /// A field on the part: its nodes on every cell.
   struct Carried {
     int field = 0;
@@ -66,7 +66,7 @@ struct Output::Part {
   std::unique_ptr<Space> space;  ///< of the output nodes
   std::map<EntityKey, int> index;
   std::vector<Carried> fields;
-  std::vector<Place> place;
+  std::vector<NodeOfCell> place;
   std::vector<Vec3<double>> reference;
   std::vector<double> measure;
   std::vector<OutputCell> cells;
@@ -94,7 +94,7 @@ void set_terms(OutputModel& model, const Functional& functional) {
     if (functional.terms()[t]->info().load) model.loads.push_back(model.terms[t]);
 }
 
-Output::Output(OutputModel model) : model_(std::move(model)) {
+OutputSampler::OutputSampler(OutputModel model) : model_(std::move(model)) {
   // Distinct regions that carry fields, the main one first.
   std::vector<std::size_t> order;
   for (std::size_t f = 0; f < model_.fields.size(); ++f) order.push_back(f);
@@ -144,12 +144,12 @@ Output::Output(OutputModel model) : model_(std::move(model)) {
   }
 }
 
-Output::Output(Output&&) noexcept = default;
-Output::~Output() = default;
+OutputSampler::OutputSampler(OutputSampler&&) noexcept = default;
+OutputSampler::~OutputSampler() = default;
 
 // Layout of the energies: part of the mesh after part, and for each of them column after column (a term, its own parts, the components of its quantities): the
 // number of cells that have the column, then the number of every cell.
-std::vector<double> Output::cell_energies(const Functional& functional, const Configuration& u) const {
+std::vector<double> OutputSampler::cell_energies(const Functional& functional, const Configuration& u) const {
   assert(functional.terms().size() == model_.terms.size());
   const auto parts_shown = [&](std::size_t term) { return term < model_.term_parts.size() ? model_.term_parts[term].size() : 0; };
   const auto quantities_shown = [&](std::size_t term) {
@@ -204,7 +204,7 @@ namespace {
 
 /// Values of a field at all output nodes of a part.
 std::vector<double> nodal_values(const Field& field, int field_index, const std::vector<std::vector<int>>& cell_nodes,
-                                 const std::vector<Place>& places, const Space& output, const Configuration& u) {
+                                 const std::vector<NodeOfCell>& places, const Space& output, const Configuration& u) {
   const auto ambient = static_cast<std::size_t>(field.manifold->ambient);
   const int p = field.space->order();
   // Basis of the field at the output nodes of every kind of cell.
@@ -240,7 +240,7 @@ std::vector<double> nodal_values(const Field& field, int field_index, const std:
 
 }  // namespace
 
-std::vector<OutputPart> Output::sample(const Configuration& u, std::span<const double> energies) const {
+std::vector<OutputPart> OutputSampler::sample(const Configuration& u, std::span<const double> energies) const {
   struct Column {  // one array of cell data, of as many columns as it has components
     std::string name;
     int components = 1;

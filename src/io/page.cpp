@@ -8,7 +8,7 @@
 
 #include "io/page_data.hpp"
 #include "io/page_fields.hpp"
-#include "io/page_shape.hpp"
+#include "io/page_geometry.hpp"
 #include "io/page_store.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
@@ -140,7 +140,7 @@ void write_page(const std::filesystem::path& directory, const PageLimits& limits
     const Drawing* curve = draw_as_curves(store);
     const std::vector<int> states = thinned(store.states.size(), limits.states);
     if (states.size() < store.states.size()) notes.push_back(fmt::format("The page shows {} of {} states.", states.size(), store.states.size()));
-    const PageShape cut = page_shape(store, states, limits.triangles);
+    const PageGeometry cut = page_geometry(store, states, limits.triangles);
     if (!cut.note.empty()) notes.push_back(cut.note);
     if (!cut.vertices.empty())
       shape = shape_header(store, states, cut, std::max(limits.glyphs, limits.glyph_values / static_cast<int>(states.size())), arrays);

@@ -29,7 +29,7 @@ int index_of(const std::vector<StoredArray>& list, const std::string& name) {
 
 class Fields {
  public:
-  Fields(const Store& store, const std::vector<int>& states, const PageShape& shape, PageArrays& arrays)
+  Fields(const Store& store, const std::vector<int>& states, const PageGeometry& shape, PageArrays& arrays)
       : store_(store), states_(states), shape_(shape), arrays_(arrays) {}
 
   json list = json::array(), glyphs = json::array();
@@ -229,7 +229,7 @@ class Fields {
 
   const Store& store_;
   const std::vector<int>& states_;
-  const PageShape& shape_;
+  const PageGeometry& shape_;
   PageArrays& arrays_;
 };
 
@@ -414,7 +414,7 @@ void add_field(const Store& store, const std::string& name, const Drawing& drawi
 
 }  // namespace
 
-json shape_header(const Store& store, const std::vector<int>& states, const PageShape& shape, int most_glyphs, PageArrays& arrays) {
+json shape_header(const Store& store, const std::vector<int>& states, const PageGeometry& shape, int most_glyphs, PageArrays& arrays) {
   json out = {{"vertices", shape.vertices.size()}, {"cells", shape.facets.size()}};
   Values reference(3 * shape.vertices.size());
   double lowest = HUGE_VAL, highest = -HUGE_VAL, size = 0;

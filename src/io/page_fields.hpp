@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "io/page_data.hpp"
-#include "io/page_shape.hpp"
+#include "io/page_geometry.hpp"
 
 namespace karcher {
 
 /// The header's "shape" (viewer/src/data.ts: Shape); its numbers go to `arrays`.
 /// \param states indices of the stored states that are shown
-nlohmann::ordered_json shape_header(const Store& store, const std::vector<int>& states, const PageShape& shape, int most_glyphs, PageArrays& arrays);
+nlohmann::ordered_json shape_header(const Store& store, const std::vector<int>& states, const PageGeometry& shape, int most_glyphs,
+                                    PageArrays& arrays);
 
 }  // namespace karcher

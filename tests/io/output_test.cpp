@@ -40,7 +40,7 @@ TEST(Output, ADeformationMovesThePointsAndTellsTheDisplacement) {
   const auto mesh = generated("cylinder", {{"radius", {2}}, {"height", {1}}, {"cells", {5, 2}}, {"order", {2}}});
   const Field m = field_on(mesh, mesh->region("all"), "m", "R3", 1);
   const auto map = [](const Vec3<double>& x) { return std::vector<double>{3 * x[2] + 1, x[0], x[1] - x[2]}; };
-  const Output output({.fields = {m}, .deformation = 0});
+  const OutputSampler output({.fields = {m}, .deformation = 0});
   const auto parts = output.sample({{nodal(m, map)}, 0});
   ASSERT_EQ(parts.size(), 1U);
   const OutputPart& part = parts[0];
@@ -73,7 +73,7 @@ TEST(Output, ADeformationMovesThePointsAndTellsTheDisplacement) {
 TEST(Output, APlaneDeformationStaysInItsPlane) {
   const auto mesh = generated("rectangle", {{"cells", {2, 2}}});
   const Field m = field_on(mesh, mesh->region("all"), "m", "R2", 1);
-  const auto parts = Output({.fields = {m}, .deformation = 0})
+  const auto parts = OutputSampler({.fields = {m}, .deformation = 0})
                          .sample({{nodal(m,
                                          [](const Vec3<double>& x) {
                                            return std::vector<double>{2 * x[0], x[1]};
@@ -93,8 +93,8 @@ TEST(Output, ADirectionOfLowerOrderIsInterpolatedByItsRule) {
   };
   for (const Rule rule : {Rule::projection, Rule::geodesic}) {
     const Field n = field_on(mesh, mesh->region("all"), "n", "S2", 1, rule), u = field_on(mesh, mesh->region("all"), "u", "R1", 3);
-    const auto parts =
-        Output({.fields = {n, u}}).sample({{nodal(n, direction), nodal(u, [](const Vec3<double>& x) { return std::vector<double>{x[0]}; })}, 0});
+    const auto parts = OutputSampler({.fields = {n, u}})
+                           .sample({{nodal(n, direction), nodal(u, [](const Vec3<double>& x) { return std::vector<double>{x[0]}; })}, 0});
     EXPECT_EQ(parts[0].order, 3);
     const auto& value = array(parts[0].point_data, "n");
     for (std::size_t k = 0; k < 4; ++k) {
@@ -110,7 +110,7 @@ TEST(Output, ARotationIsToldByItsQuaternionAndItsDirectors) {
   const auto mesh = generated("rectangle", {{"cells", {2, 1}}});
   const Field q = field_on(mesh, mesh->region("all"), "Q", "SO3", 2);
   const double angle = 0.7;
-  const auto parts = Output({.fields = {q}}).sample({{nodal(q, [&](const Vec3<double>&) { return rotation_about_e3(angle); })}, 0});
+  const auto parts = OutputSampler({.fields = {q}}).sample({{nodal(q, [&](const Vec3<double>&) { return rotation_about_e3(angle); })}, 0});
   const auto& data = parts[0].point_data;
   EXPECT_EQ(names(data), (std::vector<std::string>{"director1", "director2", "director3", "Q"}));
   const double expected[3][3] = {{std::cos(angle), std::sin(angle), 0}, {-std::sin(angle), std::cos(angle), 0}, {0, 0, 1}};
@@ -125,7 +125,12 @@ TEST(Output, DirectorsAreTheColumnsOfTheRotationOfAnyQuaternion) {
   const auto mesh = generated("interval", {{"cells", {1}}});
   const Field q = field_on(mesh, mesh->region("all"), "Q", "SO3", 1);
   // Rotation by 120 degrees about (1, 1, 1): e1 -> e2 -> e3 -> e1.
-  const auto parts = Output({.fields = {q}}).sample({{nodal(q, [](const Vec3<double>&) { return std::vector<double>{0.5, 0.5, 0.5, 0.5}; })}, 0});
+  const auto parts = OutputSampler({.fields = {q}})
+                         .sample({{nodal(q,
+                                         [](const Vec3<double>&) {
+                                           return std::vector<double>{0.5, 0.5, 0.5, 0.5};
+                                         })},
+                                  0});
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) EXPECT_EQ(at(parts[0].point_data[static_cast<std::size_t>(k)], 0, i), i == (k + 1) % 3 ? 1.0 : 0.0);
 }
@@ -134,7 +139,7 @@ TEST(Output, TwoRotationsHaveDirectorsUnderTheirNames) {
   const auto mesh = generated("interval", {{"cells", {1}}});
   const Field p = field_on(mesh, mesh->region("all"), "P", "SO3", 1), q = field_on(mesh, mesh->region("all"), "Q", "SO3", 1);
   const auto identity = [](const Vec3<double>&) { return rotation_about_e3(0); };
-  const auto parts = Output({.fields = {p, q}}).sample({{nodal(p, identity), nodal(q, identity)}, 0});
+  const auto parts = OutputSampler({.fields = {p, q}}).sample({{nodal(p, identity), nodal(q, identity)}, 0});
   EXPECT_EQ(names(parts[0].point_data),
             (std::vector<std::string>{"P.director1", "P.director2", "P.director3", "P", "Q.director1", "Q.director2", "Q.director3", "Q"}));
 }
@@ -146,7 +151,7 @@ TEST(Output, ATensorIsWrittenRowByRow) {
   const double matrix[9] = {2, 0.5, 0.25, 0.5, 3, -0.5, 0.25, -0.5, 4};
   std::vector<double> point(static_cast<std::size_t>(ops.ambient));
   ASSERT_TRUE(ops.make_point(matrix, point.data()));
-  const auto parts = Output({.fields = {p}}).sample({{nodal(p, [&](const Vec3<double>&) { return point; })}, 0});
+  const auto parts = OutputSampler({.fields = {p}}).sample({{nodal(p, [&](const Vec3<double>&) { return point; })}, 0});
   const auto& value = array(parts[0].point_data, "P");
   ASSERT_EQ(value.components, 9);
   for (int i = 0; i < 9; ++i) EXPECT_NEAR(at(value, 1, i), matrix[i], 1e-15);
@@ -155,7 +160,7 @@ TEST(Output, ATensorIsWrittenRowByRow) {
 TEST(Output, WhereAnInterpolationIsNotDefinedThereIsNoNumber) {
   const auto mesh = generated("interval", {{"cells", {1}}});
   const Field n = field_on(mesh, mesh->region("all"), "n", "S2", 1), u = field_on(mesh, mesh->region("all"), "u", "R1", 2);
-  const auto parts = Output({.fields = {n, u}}).sample({{{1, 0, 0, -1, 0, 0}, {0, 0, 0}}, 0});
+  const auto parts = OutputSampler({.fields = {n, u}}).sample({{{1, 0, 0, -1, 0, 0}, {0, 0, 0}}, 0});
   const auto& value = array(parts[0].point_data, "n");
   EXPECT_EQ(at(value, 0, 0), 1);
   EXPECT_EQ(at(value, 1, 0), -1);
@@ -167,7 +172,7 @@ TEST(Output, AFilmOnASolidIsAPartOfItsOwnThatMovesWithTheSolid) {
   const Region film = select(*mesh, "film", 2, true, [](const Vec3<double>& x) { return x[2] > 1 - 1e-9; });
   const Field q = field_on(mesh, film, "Q", "SO3", 2), m = field_on(mesh, mesh->region("all"), "m", "R3", 1);
   const auto stretch = [](const Vec3<double>& x) { return std::vector<double>{2 * x[0], x[1], 1.5 * x[2]}; };
-  const auto parts = Output({.fields = {q, m}, .deformation = 1})
+  const auto parts = OutputSampler({.fields = {q, m}, .deformation = 1})
                          .sample({{nodal(q, [](const Vec3<double>&) { return rotation_about_e3(0); }), nodal(m, stretch)}, 0});
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].region, "all");
@@ -192,7 +197,7 @@ TEST(Output, TheSameRegionUnderTwoNamesIsOnePart) {
   const auto mesh = generated("rectangle", {{"cells", {2, 1}}});
   const Region sheet = select(*mesh, "sheet", 2, false, [](const Vec3<double>&) { return true; });
   const Field m = field_on(mesh, mesh->region("all"), "m", "R1", 1), q = field_on(mesh, sheet, "n", "R1", 1);
-  EXPECT_EQ(Output({.fields = {m, q}}).sample({{std::vector<double>(6), std::vector<double>(6)}, 0}).size(), 1U);
+  EXPECT_EQ(OutputSampler({.fields = {m, q}}).sample({{std::vector<double>(6), std::vector<double>(6)}, 0}).size(), 1U);
 }
 
 TEST(Output, AReferenceGivenByAFunctionIsWhatDisplacementsStartFrom) {
@@ -203,7 +208,7 @@ TEST(Output, AReferenceGivenByAFunctionIsWhatDisplacementsStartFrom) {
     const Vec3<double> y = roll(x);
     return std::vector<double>{y[0], y[1], y[2]};
   };
-  const auto parts = Output({.fields = {m}, .deformation = 0, .reference_position = roll}).sample({{nodal(m, rolled)}, 0});
+  const auto parts = OutputSampler({.fields = {m}, .deformation = 0, .reference_position = roll}).sample({{nodal(m, rolled)}, 0});
   for (const double u : array(parts[0].point_data, "displacement").values) EXPECT_NEAR(u, 0, 1e-15);
   const auto& x = array(parts[0].point_data, "reference");
   for (std::size_t n = 0; n < parts[0].points.size(); ++n) EXPECT_NEAR(std::hypot(at(x, n, 0), at(x, n, 1)), 1, 1e-15);
@@ -284,7 +289,7 @@ TEST(Output, EnergyDensitiesAreEnergiesPerReferenceMeasureHoweverTheCellsAreShar
   set_terms(model, functional({0}, {}, {}));
   EXPECT_EQ(model.terms, (std::vector<std::string>{"shell", "traction-load", "film"}));
   EXPECT_EQ(model.loads, (std::vector<std::string>{"traction-load"}));
-  const Output output(model);
+  const OutputSampler output(model);
   const Configuration zero{{std::vector<double>(static_cast<std::size_t>(u.space->node_count()), 0.0)}, 0};
   const std::vector<double> whole = output.cell_energies(functional({0, 1, 2, 3, 4, 5}, {0, 1}, {0}), zero);
   std::vector<double> sum = output.cell_energies(functional({4, 0, 1}, {1}, {}), zero);
@@ -339,7 +344,7 @@ TEST(Output, TheDensitiesOfAShellAndOfItsPartsAddUpToItsEnergy) {
   const Functional functional(std::make_shared<const Layout>(std::span(fields), fixed, CellRanks(mesh->cells.size(), 0), 0, 1), std::move(terms));
   OutputModel model{.fields = fields, .deformation = 0};
   set_terms(model, functional);
-  const Output output(model);
+  const OutputSampler output(model);
   const TemporaryDirectory directory;
   write_vtu(directory / "shell.vtu", output.sample(u, output.cell_energies(functional, u))[0], 0);
   const auto integrals = judge({directory / "shell.vtu"})[0]["integrals"];
@@ -373,7 +378,7 @@ TEST(Output, VtkIntegratesTheFieldsOfEveryKindOfCell) {
       const Field u = field_on(mesh, mesh->region("all"), "u", "R2", p);
       const auto polynomial = [&](const Vec3<double>& x) { return std::vector<double>{std::pow(x[0], p), 1 + std::pow(x[c.dim - 1], p) - 2 * x[0]}; };
       files.push_back(directory / (c.generator + c.shape + std::to_string(p) + ".vtu"));
-      write_vtu(files.back(), Output({.fields = {u}}).sample({{nodal(u, polynomial)}, 0})[0], 0);
+      write_vtu(files.back(), OutputSampler({.fields = {u}}).sample({{nodal(u, polynomial)}, 0})[0], 0);
     }
   const auto facts = judge(files);
   for (std::size_t i = 0; i < files.size(); ++i) {  // on the unit interval, square and cube

@@ -14,7 +14,7 @@
 
 #include "io/fields.hpp"
 #include "io/page_data.hpp"
-#include "io/page_shape.hpp"
+#include "io/page_geometry.hpp"
 #include "io/page_store.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
@@ -122,7 +122,7 @@ Store stored(const std::shared_ptr<const Mesh>& mesh, int order, const std::vect
   model.fields = {field_on(mesh, mesh->region("all"), "m", "R3", order)};
   model.deformation = 0;
   PageStates states(directory, model);
-  const Output output(model);
+  const OutputSampler output(model);
   int k = 0;
   for (const auto& map : maps) {
     states.write(k, k, output.sample({{nodal(model.fields[0], map)}, 0}));
@@ -137,13 +137,13 @@ std::vector<int> all_states(const Store& store) {
   return out;
 }
 
-std::vector<Vec3<double>> places(const PageShape& shape, const Store& store) {
+std::vector<Vec3<double>> places(const PageGeometry& shape, const Store& store) {
   std::vector<Vec3<double>> x(shape.vertices.size());
   for (std::size_t v = 0; v < x.size(); ++v) shape.interpolate(v, store.parts.at(0).reference, 3, &x[v][0]);
   return x;
 }
 
-double area(const PageShape& shape, const std::vector<Vec3<double>>& x) {
+double area(const PageGeometry& shape, const std::vector<Vec3<double>>& x) {
   double sum = 0;
   for (std::size_t t = 0; t < shape.triangle_facets.size(); ++t) {
     const Vec3<double> n =
@@ -154,7 +154,7 @@ double area(const PageShape& shape, const std::vector<Vec3<double>>& x) {
 }
 
 /// How many triangle edges belong to 1, 2, ... triangles.
-std::map<int, int> edge_uses(const PageShape& shape) {
+std::map<int, int> edge_uses(const PageGeometry& shape) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (std::size_t t = 0; t < shape.triangle_facets.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) ++uses[std::minmax(shape.triangles[3 * t + k], shape.triangles[3 * t + (k + 1) % 3])];
@@ -163,7 +163,7 @@ std::map<int, int> edge_uses(const PageShape& shape) {
   return count;
 }
 
-int euler_characteristic(const PageShape& shape) {
+int euler_characteristic(const PageGeometry& shape) {
   const std::set<std::uint32_t> used(shape.triangles.begin(), shape.triangles.end());
   int edges = 0;
   for (const auto& [n, count] : edge_uses(shape)) edges += count;
@@ -193,7 +193,7 @@ TEST(PageArrays, NumbersComeBackWithinHalfAStepOfTheirRange) {
   for (std::size_t i = 0; i < integers.size(); ++i) EXPECT_EQ(n[i], integers[i]);
 }
 
-TEST(PageShape, CutsOfACurvedClosedSurfaceFitTogetherAndHaveItsAreaAndTopology) {
+TEST(PageGeometry, CutsOfACurvedClosedSurfaceFitTogetherAndHaveItsAreaAndTopology) {
   const TemporaryDirectory directory;
   // A bump that stretches a few elements: they are cut finer than the others, and still nothing gapes.
   const auto bump = [](const Vec3<double>& x) {
@@ -201,11 +201,11 @@ TEST(PageShape, CutsOfACurvedClosedSurfaceFitTogetherAndHaveItsAreaAndTopology) 
     return std::vector<double>{h * x[0], h * x[1], h * x[2]};
   };
   const Store store = stored(generated("sphere", {{"cells", {4}}, {"order", {3}}}), 3, {identity, bump}, directory.path());
-  const PageShape shape = page_shape(store, all_states(store), 200000);
+  const PageGeometry shape = page_geometry(store, all_states(store), 200000);
   EXPECT_EQ(edge_uses(shape).size(), 1U);
   EXPECT_GT(edge_uses(shape)[2], 0);
   EXPECT_EQ(euler_characteristic(shape), 2);
-  const PageShape plain = page_shape(store, {0}, 200000);
+  const PageGeometry plain = page_geometry(store, {0}, 200000);
   EXPECT_GT(shape.triangle_facets.size(), plain.triangle_facets.size());
   const std::vector<Vec3<double>> x = places(shape, store);
   for (const Vec3<double>& p : x) EXPECT_NEAR(dot(p, p), 1, 2e-3);  // of cubic elements, not of their chords
@@ -223,20 +223,20 @@ TEST(PageShape, CutsOfACurvedClosedSurfaceFitTogetherAndHaveItsAreaAndTopology) 
   EXPECT_EQ(shape.strong_edges, 0);
 }
 
-TEST(PageShape, AKleinBottleStaysClosedAndOneSided) {
+TEST(PageGeometry, AKleinBottleStaysClosedAndOneSided) {
   const TemporaryDirectory directory;
   const Store store = stored(generated("klein-bottle", {{"cells", {12, 8}}, {"order", {2}}}), 2, {identity}, directory.path());
-  const PageShape shape = page_shape(store, {0}, 200000);
+  const PageGeometry shape = page_geometry(store, {0}, 200000);
   EXPECT_EQ(edge_uses(shape).size(), 1U);
   EXPECT_EQ(edge_uses(shape).begin()->first, 2);
   EXPECT_EQ(euler_characteristic(shape), 0);
 }
 
-TEST(PageShape, OfASolidTheBoundaryIsShownWithItsCreasesStrong) {
+TEST(PageGeometry, OfASolidTheBoundaryIsShownWithItsCreasesStrong) {
   const TemporaryDirectory directory;
   for (const char* kind : {"tetrahedron", "hexahedron"}) {
     const Store store = stored(generated("box", {{"size", {4, 1, 2}}, {"cells", {4, 1, 2}}}, {{"shape", kind}}), 1, {identity}, directory.path());
-    const PageShape shape = page_shape(store, {0}, 200000);
+    const PageGeometry shape = page_geometry(store, {0}, 200000);
     EXPECT_NEAR(area(shape, places(shape, store)), 2 * (4 + 8 + 2), 1e-5);
     EXPECT_EQ(edge_uses(shape).size(), 1U);
     EXPECT_EQ(euler_characteristic(shape), 2);
@@ -244,13 +244,13 @@ TEST(PageShape, OfASolidTheBoundaryIsShownWithItsCreasesStrong) {
   }
 }
 
-TEST(PageShape, EveryFaceBetweenTwoCellsOfASolidIsThereOnceWithTheCellsOnBothSides) {
+TEST(PageGeometry, EveryFaceBetweenTwoCellsOfASolidIsThereOnceWithTheCellsOnBothSides) {
   const TemporaryDirectory directory;
   for (const char* kind : {"tetrahedron", "hexahedron"})
     for (const int order : {1, 2}) {
       const auto mesh = generated("box", {{"size", {2, 1, 1}}, {"cells", {4, 2, 2}}}, {{"shape", kind}});
       const Store store = stored(mesh, order, {identity}, directory.path());
-      const PageShape shape = page_shape(store, {0}, 200000);
+      const PageGeometry shape = page_geometry(store, {0}, 200000);
       const bool tetrahedra = std::string(kind) == "tetrahedron";
       const int faces = tetrahedra ? 4 : 6;
       std::set<std::uint32_t> outer(shape.triangle_facets.begin(), shape.triangle_facets.end()),
@@ -288,31 +288,31 @@ TEST(PageShape, EveryFaceBetweenTwoCellsOfASolidIsThereOnceWithTheCellsOnBothSid
     }
 }
 
-TEST(PageShape, TheInsideOfALargeSolidIsLeftOutAndSaidSo) {
+TEST(PageGeometry, TheInsideOfALargeSolidIsLeftOutAndSaidSo) {
   const TemporaryDirectory directory;
   const auto mesh = generated("box", {{"size", {1, 1, 1}}, {"cells", {4, 4, 4}}}, {{"shape", "hexahedron"}});
   const Store store = stored(mesh, 1, {identity}, directory.path());
-  const PageShape shape = page_shape(store, {0}, 6 * 16 * 2 + 100);  // 6 x 16 outer and 3 x 48 inner faces of two triangles
+  const PageGeometry shape = page_geometry(store, {0}, 6 * 16 * 2 + 100);  // 6 x 16 outer and 3 x 48 inner faces of two triangles
   EXPECT_EQ(shape.triangle_facets.size(), 6U * 16 * 2);
   EXPECT_TRUE(shape.inner_triangles.empty());
   EXPECT_TRUE(shape.solid_cells.empty());
   EXPECT_NE(shape.note.find("inside of the solid is left out"), std::string::npos) << shape.note;
-  EXPECT_EQ(page_shape(store, {0}, 6 * 16 * 2 + 288).inner_facets.size(), 288U);
+  EXPECT_EQ(page_geometry(store, {0}, 6 * 16 * 2 + 288).inner_facets.size(), 288U);
 }
 
-TEST(PageShape, CurvesAreCutWhereTheyBend) {
+TEST(PageGeometry, CurvesAreCutWhereTheyBend) {
   const TemporaryDirectory directory;
   const auto arc = [](const Vec3<double>& x) { return std::vector<double>{std::sin(x[0]), 0, 1 - std::cos(x[0])}; };
   const auto mesh = generated("interval", {{"length", {2}}, {"cells", {5}}});
   const Store straight = stored(mesh, 1, {identity, arc}, directory.path());
-  EXPECT_EQ(page_shape(straight, {0, 1}, 1000).curves.size(), 10U);
+  EXPECT_EQ(page_geometry(straight, {0, 1}, 1000).curves.size(), 10U);
   const Store bent = stored(mesh, 2, {identity, arc}, directory.path());
-  const PageShape shape = page_shape(bent, {0, 1}, 1000);
+  const PageGeometry shape = page_geometry(bent, {0, 1}, 1000);
   EXPECT_GT(shape.curves.size(), 15U);
   EXPECT_EQ(shape.vertices.size(), shape.curves.size() - 4);  // neighbours share their ends
 }
 
-TEST(PageShape, AFilmTakesThePlaceOfTheFacesItLiesOn) {
+TEST(PageGeometry, AFilmTakesThePlaceOfTheFacesItLiesOn) {
   const TemporaryDirectory directory;
   const auto mesh = generated("box", {{"size", {2, 1, 1}}, {"cells", {4, 2, 2}}}, {{"shape", "hexahedron"}});
   OutputModel model;
@@ -320,14 +320,14 @@ TEST(PageShape, AFilmTakesThePlaceOfTheFacesItLiesOn) {
   model.deformation = 0;
   PageStates states(directory.path(), model);
   states.write(0, 0,
-               Output(model).sample({{nodal(model.fields[0], identity), nodal(model.fields[1],
-                                                                              [](const auto&) {
-                                                                                return std::vector<double>{1, 0, 0, 0};
-                                                                              })},
-                                     0}));
+               OutputSampler(model).sample({{nodal(model.fields[0], identity), nodal(model.fields[1],
+                                                                                     [](const auto&) {
+                                                                                       return std::vector<double>{1, 0, 0, 0};
+                                                                                     })},
+                                            0}));
   const Store store = read_store(directory / "report.data");
   ASSERT_EQ(store.parts.size(), 2U);
-  const PageShape shape = page_shape(store, {0}, 200000);
+  const PageGeometry shape = page_geometry(store, {0}, 200000);
   EXPECT_EQ(shape.triangle_facets.size(), 2U * 2 * (8 + 8 + 4));
   int film = 0;
   for (std::size_t k = 0; k < shape.facets.size(); ++k) {
@@ -340,14 +340,14 @@ TEST(PageShape, AFilmTakesThePlaceOfTheFacesItLiesOn) {
   EXPECT_EQ(film, 8);
 }
 
-TEST(PageShape, MoreTrianglesThanAllowedAreThinnedAndSaidSo) {
+TEST(PageGeometry, MoreTrianglesThanAllowedAreThinnedAndSaidSo) {
   const TemporaryDirectory directory;
   const Store curved = stored(generated("sphere", {{"cells", {6}}, {"order", {2}}}), 2, {identity}, directory.path());
-  EXPECT_TRUE(page_shape(curved, {0}, 200000).note.empty());
-  const PageShape coarser = page_shape(curved, {0}, 1000);
+  EXPECT_TRUE(page_geometry(curved, {0}, 200000).note.empty());
+  const PageGeometry coarser = page_geometry(curved, {0}, 1000);
   EXPECT_LE(coarser.triangle_facets.size(), 1000U);
   EXPECT_NE(coarser.note.find("at most 1 pieces"), std::string::npos) << coarser.note;
-  const PageShape merged = page_shape(curved, {0}, 300);
+  const PageGeometry merged = page_geometry(curved, {0}, 300);
   EXPECT_LE(merged.triangle_facets.size(), 300U);
   EXPECT_GT(merged.triangle_facets.size(), 100U);
   EXPECT_NE(merged.note.find("of 720 triangles"), std::string::npos) << merged.note;
@@ -383,7 +383,7 @@ TEST(Page, ShowsDisplacementsAngleToTheNormalAndDirectors) {
   model.fields = {field_on(mesh, mesh->region("all"), "m", "R3", 2), field_on(mesh, mesh->region("all"), "Q", "SO3", 2)};
   model.deformation = 0;
   model.terms = {"cosserat-shell"};
-  const Output output(model);
+  const OutputSampler output(model);
   PageStates states(directory.path(), model);
   const double angle = 0.7, c = std::cos(angle), s = std::sin(angle);
   const auto turn = [&](const Vec3<double>& x) { return std::vector<double>{x[0], c * x[1] - s * x[2], s * x[1] + c * x[2]}; };
@@ -430,7 +430,12 @@ TEST(Page, AManifoldIsDrawnAsItSays) {
   OutputModel model;
   model.fields = {{"n", &manifold_ops<Lines>(), Rule::projection, std::make_shared<const Space>(mesh, mesh->region("all"), 1)}};
   PageStates states(directory.path(), model);
-  states.write(0, 0, Output(model).sample({{nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0.8, 0.6, 0}; })}, 0}));
+  states.write(0, 0,
+               OutputSampler(model).sample({{nodal(model.fields[0],
+                                                   [](const Vec3<double>&) {
+                                                     return std::vector<double>{0.8, 0.6, 0};
+                                                   })},
+                                            0}));
   write_summary(directory / "summary.json", summary_of("rods"));
   write_page(directory.path());
   const ReadPage page = read_page(directory.path());
@@ -457,7 +462,7 @@ TEST(Page, ShowsQuantitiesOfTermsWithTheirLegendsLeavesLoadsOutOfTheEnergyAndDra
   model.headless = {0};
   model.quantities = {{{"stress.N", "force/length", 2, "membrane force"}, {"charge", "1", 1, "topological charge"}}, {}};
   const std::vector<double> up = nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0, 0, 1}; });
-  std::vector<OutputPart> parts = Output(model).sample({{up, up}, 0});
+  std::vector<OutputPart> parts = OutputSampler(model).sample({{up, up}, 0});
   OutputArray stress{"stress.nematic.N", 2, {}};
   for (int c = 0; c < 9; ++c) stress.values.insert(stress.values.end(), {1.0 * c, -2.0 * c});
   parts.at(0).cell_data = {{"energy_density.nematic", 1, std::vector<double>(9, 2.0)},
@@ -487,7 +492,7 @@ TEST(Page, ValuesThatAreNotNumbersAreCountedAndKept) {
   model.terms = {"harmonic"};
   std::vector<double> values = nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0, 0, 1}; });
   values[3 * 5] = NAN;
-  std::vector<OutputPart> parts = Output(model).sample({{values}, 0});
+  std::vector<OutputPart> parts = OutputSampler(model).sample({{values}, 0});
   OutputArray density{"energy_density.harmonic", 1, std::vector<double>(9, 2.0)};
   density.values[4] = INFINITY;
   parts.at(0).cell_data = {density};
@@ -511,7 +516,8 @@ TEST(Page, OfManyCoordinatesNineAreShownAndFewerThanTheManifoldHasAreReadWithinT
     const TemporaryDirectory directory;
     OutputModel model;
     model.fields = {field_on(mesh, mesh->region("all"), "u", "R1", 1)};
-    std::vector<OutputPart> parts = Output(model).sample({{nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0}; })}, 0});
+    std::vector<OutputPart> parts =
+        OutputSampler(model).sample({{nodal(model.fields[0], [](const Vec3<double>&) { return std::vector<double>{0}; })}, 0});
     OutputArray& array = parts.at(0).point_data.at(0);
     array.components = components;
     array.values.clear();
@@ -613,7 +619,7 @@ TEST(PageStates, AResumedRunGoesOnAfterTheStatesItKeeps) {
   model.deformation = 0;
   PageStates states(directory.path(), model, 2);
   EXPECT_EQ(read_store(directory / "report.data").states.size(), 2U);
-  states.write(2, 0.5, Output(model).sample({{nodal(model.fields[0], identity)}, 0}), {{"load", 1.5}});
+  states.write(2, 0.5, OutputSampler(model).sample({{nodal(model.fields[0], identity)}, 0}), {{"load", 1.5}});
   const Store store = read_store(directory / "report.data");
   ASSERT_EQ(store.states.size(), 3U);
   EXPECT_EQ(store.states[2].t, 0.5);

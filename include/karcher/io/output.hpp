@@ -63,11 +63,11 @@ std::string quantity_name(const std::string& quantity, const std::string& term);
 /// Fills what the functional's terms tell of themselves; their names are made distinct (distinct_names of summary.hpp).
 void set_terms(OutputModel& model, const Functional& functional);
 
-class Output {
+class OutputSampler {
  public:
-  explicit Output(OutputModel model);
-  Output(Output&&) noexcept;
-  ~Output();
+  explicit OutputSampler(OutputModel model);
+  OutputSampler(OutputSampler&&) noexcept;
+  ~OutputSampler();
 
   /// Energy and quantities of every term on every cell of every part that this rank evaluates, zero elsewhere, in a flat array of the same length on every rank.
   /// Summed over the ranks, entry by entry (sum_over_ranks), it is what sample() takes.

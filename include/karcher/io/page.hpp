@@ -24,7 +24,7 @@ class PageStates {
   PageStates(std::filesystem::path directory, const OutputModel& model, int first_state = 0);
 
   /// \param state 0: initial configuration, then the number of the load step
-  /// \param parts from Output::sample; regions, cells and names of arrays are those of the first call
+  /// \param parts from OutputSampler::sample; regions, cells and names of arrays are those of the first call
   /// \param energies of the terms at this state, for the diagram (may be empty)
   void write(int state, double t, const std::vector<OutputPart>& parts, const NamedNumbers& energies = {});
 

@@ -71,7 +71,7 @@ class Results : public Observer {
   std::uint64_t identity_;
   int last_;
   bool writer_;
-  Output output_;
+  OutputSampler output_;
   std::optional<VtuSeries> vtu_;
   std::optional<PageStates> page_;
   Summary summary_;

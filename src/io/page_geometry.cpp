@@ -1,4 +1,4 @@
-#include "io/page_shape.hpp"
+#include "io/page_geometry.hpp"
 
 #include <fmt/format.h>
 
@@ -231,7 +231,7 @@ class Cutter {
     return count;
   }
 
-  PageShape cut(int limit) {
+  PageGeometry cut(int limit) {
     point_.clear();
     for (Edge& e : edges_) cut_edge(e, limit);
     for (std::size_t f = 0; f < shape_.facets.size(); ++f) {
@@ -420,7 +420,7 @@ class Cutter {
 
   const Store* store_;
   Positions positions_;
-  PageShape shape_;
+  PageGeometry shape_;
   std::vector<Edge> edges_;
   std::vector<std::vector<Pair>> facet_edges_;  ///< [facet][local edge]: edge, turned
   std::vector<int> inside_;                     ///< pieces of the inside of every facet
@@ -428,7 +428,7 @@ class Cutter {
 };
 
 /// Merges vertices of boxes of an even grid until few enough triangles are left (Rossignac and Borrel 1993). Edges are left out.
-void thin(PageShape& shape, const Store& store, std::size_t most) {
+void thin(PageGeometry& shape, const Store& store, std::size_t most) {
   std::vector<Vec3<double>> x(shape.vertices.size());
   Vec3<double> low{{HUGE_VAL, HUGE_VAL, HUGE_VAL}}, high = -1.0 * low;
   for (std::size_t v = 0; v < x.size(); ++v) {
@@ -479,7 +479,7 @@ void thin(PageShape& shape, const Store& store, std::size_t most) {
 }
 
 /// Adds the faces inside solids, where at most `most` triangles show them, and says so where not.
-void add_inner_faces(PageShape& shape, const Store& store, const std::vector<int>& states, const std::vector<PageFacet>& inner, std::size_t most) {
+void add_inner_faces(PageGeometry& shape, const Store& store, const std::vector<int>& states, const std::vector<PageFacet>& inner, std::size_t most) {
   std::vector<PageFacet> first_sides;
   for (std::size_t k = 0; k < inner.size(); k += 2) first_sides.push_back(inner[k]);
   Cutter cutter(store, states, std::move(first_sides));
@@ -490,7 +490,7 @@ void add_inner_faces(PageShape& shape, const Store& store, const std::vector<int
                   std::string("The inside of the solid is left out, so that the page stays small: cut open, it is a shell here.");
     return;
   }
-  const PageShape cut = cutter.cut(limit);
+  const PageGeometry cut = cutter.cut(limit);
   const auto facets = static_cast<std::uint32_t>(shape.facets.size()), vertices = static_cast<std::uint32_t>(shape.vertices.size());
   shape.facets.insert(shape.facets.end(), inner.begin(), inner.end());
   for (const PageVertex& v : cut.vertices) shape.vertices.push_back({static_cast<int>(facets) + 2 * v.facet, v.weights});
@@ -511,7 +511,7 @@ void add_inner_faces(PageShape& shape, const Store& store, const std::vector<int
 
 }  // namespace
 
-void PageShape::interpolate(std::size_t vertex, const std::vector<float>& values, int components, double* out) const {
+void PageGeometry::interpolate(std::size_t vertex, const std::vector<float>& values, int components, double* out) const {
   const PageVertex& v = vertices[vertex];
   const PageFacet& facet = facets[static_cast<std::size_t>(v.facet)];
   const std::vector<double>& w = *v.weights;
@@ -523,7 +523,7 @@ void PageShape::interpolate(std::size_t vertex, const std::vector<float>& values
   }
 }
 
-PageShape page_shape(const Store& store, const std::vector<int>& states, int most_triangles) {
+PageGeometry page_geometry(const Store& store, const std::vector<int>& states, int most_triangles) {
   std::vector<PageFacet> inner;
   std::vector<PageFacet> facets = visible_facets(store, inner);
   // Curvature over all states is asked for where that is quick; of many facets the last state stands for the others.
@@ -534,7 +534,7 @@ PageShape page_shape(const Store& store, const std::vector<int>& states, int mos
   const std::size_t wanted = cutter.triangle_count(finest);
   int limit = finest;
   while (limit > 1 && cutter.triangle_count(limit) > most) limit /= 2;
-  PageShape shape = cutter.cut(limit);
+  PageGeometry shape = cutter.cut(limit);
   if (shape.triangle_facets.size() > most)
     thin(shape, store, most);
   else if (limit < finest && shape.triangle_facets.size() < wanted)

@@ -34,7 +34,7 @@ struct PageVertex {
   const std::vector<double>* weights = nullptr;
 };
 
-struct PageShape {
+struct PageGeometry {
   std::vector<PageFacet> facets;
   std::vector<PageVertex> vertices;
   std::vector<std::uint32_t> triangles, triangle_facets;           ///< three vertices each
@@ -52,6 +52,6 @@ struct PageShape {
 };
 
 /// \param states indices of the stored states that will be shown
-PageShape page_shape(const Store& store, const std::vector<int>& states, int most_triangles);
+PageGeometry page_geometry(const Store& store, const std::vector<int>& states, int most_triangles);
 
 }  // namespace karcher

@@ -46,7 +46,7 @@ class Reader {
     output();
     problem_.resolved = to_toml(problem_.values);
     for (const Entry& e : problem_.values.entries)
-      if (e.key != "title" && e.key != "output" && e.key != "probes" && e.key != "solver" && e.key != "mesh") {
+      if (e.key != "title" && e.key != "output" && e.key != "probes" && e.key != "solver" && e.key != "continuation" && e.key != "mesh") {
         Value section;
         section.entries.push_back(e);
         problem_.identity.push_back(to_toml(section));

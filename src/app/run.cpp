@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/launch.hpp"
 #include "app/signals.hpp"
@@ -38,20 +37,6 @@ std::string outcome(const ContinuationReport& report, int earlier, int planned) 
   return text;
 }
 
-/// The load steps that a checkpoint has left to do.
-ContinuationOptions remaining(const ContinuationOptions& all, const Checkpoint& done) {
-  ContinuationOptions rest = all;
-  rest.from = done.configuration.t;
-  if (!all.adaptive) {
-    rest.steps = all.steps - done.load_step;
-    return rest;
-  }
-  const double part = (all.to - rest.from) / (all.to - all.from);
-  rest.steps = std::max(1, static_cast<int>(std::lround(std::ceil(part * all.steps - 1e-9))));
-  rest.smallest = std::min(1.0, all.smallest / part);
-  return rest;
-}
-
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -70,24 +55,29 @@ int run(const RunOptions& options) {
   const std::uint64_t id = identity(problem, model);
 
   Checkpoint checkpoint;
-  const bool adaptive = problem.continuation.adaptive;
-  Results results(problem, model, id, seconds_now(), adaptive ? 0 : problem.continuation.steps);
+  Results results(problem, model, id, seconds_now(), 0);
   if (options.resume) {
     together([&] { checkpoint = read_checkpoint(results.checkpoint_file(), model.fields(), id); });
     u = checkpoint.configuration;
   }
   const int finished = checkpoint.load_step;
-  ContinuationOptions continuation = options.resume ? remaining(problem.continuation, checkpoint) : problem.continuation;
-  if (options.resume && finished > 0 && (continuation.steps < 1 || u.t == problem.continuation.to)) {
+  const ContinuationOptions& loads = problem.continuation;
+  if (finished > 0 && (u.t - loads.from) * (loads.to - loads.from) < 0)
+    throw InputError(fmt::format("The checkpoint {} stands at t = {:.6g}, before the first load step of this problem (continuation.from = {:.6g}).",
+                                 results.checkpoint_file().string(), u.t, loads.from));
+  if (finished > 0 && (u.t - loads.to) * (loads.to - loads.from) >= 0) {
     if (talks && !options.quiet) fmt::print("The run in {} is finished: there is no load step left to resume.\n", results.directory().string());
     return 0;
   }
+
+  const ContinuationStart start{finished, u.t, checkpoint.increment, checkpoint.largest_gradient};
+  const int last = last_load_step(loads, start);
 
   std::unique_ptr<ConsoleTable> table;
   if (talks) {
     if (!options.quiet) {
       for (const std::string& warning : model.warnings) fmt::print(stderr, "warning: {}\n", warning);
-      table = std::make_unique<ConsoleTable>(stdout, adaptive ? 0 : problem.continuation.steps, on_terminal());
+      table = std::make_unique<ConsoleTable>(stdout, last, on_terminal());
       table->line(fmt::format("{}: {} unknowns, {} free, on {} rank{}{}", problem.title, results.summary().unknowns, model.layout->free_dofs(),
                               model.layout->ranks(), model.layout->ranks() == 1 ? "" : "s",
                               finished > 0 ? fmt::format(", resumed after load step {} (t = {:.6g})", finished, u.t) : std::string()));
@@ -106,11 +96,9 @@ int run(const RunOptions& options) {
   if (table) listeners.push_back(table.get());
   if (iterations) listeners.push_back(iterations.get());
   listeners.push_back(&results);
-  Renumbered numbered(listeners, finished);
-  const std::vector<Observer*> observers{&numbered};
-  const ContinuationReport report = run_continuation(*model.functional, u, boundary_values(model), continuation, problem.solver, observers);
+  const ContinuationReport report = run_continuation(*model.functional, u, boundary_values(model), loads, problem.solver, listeners, start);
 
-  results.finish(report.status, outcome(report, finished, problem.continuation.steps));
+  results.finish(report.status, outcome(report, finished, last));
   table.reset();
   if (talks && !options.quiet) {
     fmt::print("{}", final_report(results.summary()));

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "io/binary.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
@@ -10,10 +13,10 @@ namespace karcher {
 namespace {
 
 // File, little-endian: magic (8 bytes), version (u32), CRC-32 of the rest (u32), length of the rest (u64), then the rest:
-// identity (u64), load step (i64), t, increment (f64), summary (string), number of fields (u64), for each field: name, manifold (strings), ambient (u64),
+// identity (u64), load step (i64), t, increment, largest gradient (f64), summary (string), number of fields (u64), for each field: name, manifold (strings), ambient (u64),
 // number of values (u64), values (f64). A string is its length (u64) and its bytes.
 constexpr std::string_view magic = "KARCHER\x1a";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t head_size = 24;
 
 /// A length (u64) and as many bytes or numbers.
@@ -66,9 +69,16 @@ Identity& Identity::add(std::span<const Field> fields) {
     add(static_cast<long>(mesh->nodes.size()));
     for (const auto& x : mesh->nodes)
       for (int i = 0; i < 3; ++i) add(x[i]);
-    for (const Cell& c : mesh->cells) {
-      add(static_cast<long>(c.kind)).add(static_cast<long>(c.order));
-      for (const int n : c.nodes) add(static_cast<long>(n));
+    const auto add_cells = [&](const std::vector<Cell>& cells) {
+      for (const Cell& c : cells) {
+        add(static_cast<long>(c.kind)).add(static_cast<long>(c.order));
+        for (const int n : c.nodes) add(static_cast<long>(n));
+      }
+    };
+    add_cells(mesh->cells);
+    for (const auto& [name, region] : mesh->regions) {
+      add(std::string_view(name)).add(static_cast<long>(region.cells.size()));
+      add_cells(region.cells);
     }
   }
   return *this;
@@ -80,6 +90,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   body.number<std::int64_t>(checkpoint.load_step);
   body.number<double>(checkpoint.configuration.t);
   body.number<double>(checkpoint.increment);
+  body.number<double>(checkpoint.largest_gradient);
   put(body, checkpoint.summary);
   body.number<std::uint64_t>(fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -116,9 +127,14 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, std::span<const Fi
   BinaryReader body(text, damaged);
   const auto stored_identity = body.number<std::uint64_t>();
   Checkpoint c;
-  c.load_step = static_cast<int>(body.number<std::int64_t>());
+  const auto load_step = body.number<std::int64_t>();
+  c.load_step = static_cast<int>(load_step);
   c.configuration.t = body.number<double>();
   c.increment = body.number<double>();
+  c.largest_gradient = body.number<double>();
+  const bool possible = load_step >= 0 && load_step < std::numeric_limits<int>::max() && std::isfinite(c.configuration.t) &&
+                        std::isfinite(c.increment) && std::isfinite(c.largest_gradient) && c.largest_gradient >= 0;
+  if (!possible) throw InputError(damaged);
   c.summary = get_text(body);
   const auto foreign = [&](const std::string& holds, const std::string& needs) {
     return InputError(fmt::format("The checkpoint {} belongs to another problem: it holds {}, the problem has {}.", source, holds, needs));

@@ -60,7 +60,7 @@ void Results::begin(const Configuration& initial) {
     if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
     if (problem_.output.vtu) vtu_.emplace(directory());
     if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_));
-    write_checkpoint(checkpoint_file(), {0, 0.0, initial, to_json(summary_)}, model_.fields(), identity_);
+    write_checkpoint(checkpoint_file(), {.configuration = initial, .summary = to_json(summary_)}, model_.fields(), identity_);
   });
   write_state(0, initial, true);
   summary_.seconds.output += seconds_now() - begin;
@@ -153,7 +153,7 @@ void Results::load_step_finished(const StepReport& report, const Configuration& 
     if (!writer_) return;
     write_summary(directory() / "summary.json", summary_);
     if (report.status == Status::converged) {
-      const Checkpoint checkpoint{report.load_step, 0.0, u, to_json(summary_)};
+      const Checkpoint checkpoint{report.load_step, report.next_increment, report.largest_gradient, u, to_json(summary_)};
       write_checkpoint(checkpoint_file(), checkpoint, model_.fields(), identity_);
     }
   });

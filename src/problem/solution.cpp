@@ -70,11 +70,11 @@ void Solution::save(const std::filesystem::path& directory) const {
   });
   std::vector<Observer*> writers{&results};
   if (csv) writers.push_back(csv.get());
-  Renumbered numbered(writers, 0);
-  for (const IterationRecord& r : iterations_) numbered.iteration(r);
+  for (const IterationRecord& r : iterations_)
+    if (csv) csv->iteration(r);
   for (std::size_t k = 0; k < report_.steps.size(); ++k) {
     model_->functional->set_load_parameter(states_[k + 1].t);
-    numbered.load_step_finished(report_.steps[k], states_[k + 1]);
+    for (Observer* o : writers) o->load_step_finished(report_.steps[k], states_[k + 1]);
   }
   results.finish(report_.status, report_.steps.empty() ? "No load step was made." : report_.steps.back().reason);
 }

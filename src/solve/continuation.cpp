@@ -19,56 +19,81 @@ std::vector<std::string> ContinuationOptions::validate() const {
   return wrong;
 }
 
+int last_load_step(const ContinuationOptions& options, const ContinuationStart& start) {
+  if (options.adaptive) return 0;
+  if (start.load_step == 0) return options.steps;
+  const double part = (start.t - options.from) / (options.to - options.from);
+  return start.load_step + options.steps - static_cast<int>(std::floor(part * options.steps + default_tuning.same_load));
+}
+
 ContinuationReport run_continuation(Functional& functional, Configuration& u, const BoundaryValues& boundary, const ContinuationOptions& options,
-                                    const SolverOptions& solver, std::span<Observer* const> observers) {
+                                    const SolverOptions& solver, std::span<Observer* const> observers, const ContinuationStart& start) {
   if (const auto wrong = options.validate(); !wrong.empty()) throw InputError(wrong.front());
   const bool flow = solver.method == "gradient-flow";
   if (flow && !(options.to > options.from))
     throw InputError("A gradient flow needs a time interval: the load parameter must grow from `from` to `to`.");
   const SolverTuning& tuning = default_tuning;
+  const double range = options.to - options.from, longest = range / options.steps;
+  const bool adaptive = options.adaptive && range != 0;
   Minimizer minimizer(functional, solver, tuning);
   ContinuationReport result;
 
-  // Progress is counted in parts of the whole range, so that the last step ends exactly at `to`.
-  const double whole = 1.0 / options.steps;
-  double done = 0, part = whole;
-  int load_step = 0;
-  while (done < 1) {
-    double next = std::min(1.0, done + part);
-    if (1 - next < tuning.step_remainder * part) next = 1;
-    if (!options.adaptive) next = static_cast<double>(load_step + 1) / options.steps;
-    const double t = next == 1 ? options.to : options.from + next * (options.to - options.from);
-
-    for (Observer* o : observers) o->load_step_begins(load_step, t);
-    const Configuration before = u;
+  double t = options.from, increment = longest;
+  int load_step = 0, fixed = 0;  // finished load steps; which of the loads of fixed steps was reached
+  if (start.load_step > 0) {
+    if (!((start.t - options.from) * range >= 0 && (options.to - start.t) * range > 0))
+      throw InputError(fmt::format("Load steps from t = {:.6g} to {:.6g} cannot go on after t = {:.6g}.", options.from, options.to, start.t));
+    load_step = start.load_step;
+    t = start.t;
+    if (!adaptive) fixed = options.steps - (last_load_step(options, start) - load_step);
+    if (std::abs(start.increment) < std::abs(longest) && start.increment * range > 0) increment = start.increment;
     functional.set_load_parameter(t);
     u.t = t;
+    minimizer.resume(u, start.largest_gradient);
+  }
+  while (adaptive ? t != options.to : fixed < options.steps) {
+    double next = fixed + 1 == options.steps ? options.to : options.from + static_cast<double>(fixed + 1) / options.steps * range;
+    if (adaptive) {
+      next = t + increment;
+      if ((options.to - next) / increment < tuning.step_remainder) next = options.to;
+    }
+
+    for (Observer* o : observers) o->load_step_begins(load_step + 1, next);
+    const Configuration before = u;
+    functional.set_load_parameter(next);
+    u.t = next;
     Configuration target = u;
-    if (boundary) boundary(t, target);
+    if (boundary) boundary(next, target);
     Minimizer::Task task;
-    task.load_step = load_step;
+    task.load_step = load_step + 1;
     task.boundary = boundary ? &target : nullptr;
-    task.time_step = flow ? (next - done) * (options.to - options.from) : 0.0;
+    task.time_step = flow ? next - t : 0.0;
     StepReport report = minimizer.run(u, task, observers);
 
-    const bool retry = options.adaptive && (report.status == Status::not_converged || report.status == Status::failed) &&
-                       tuning.step_fall * part >= options.smallest;
+    const bool retry = adaptive && (report.status == Status::not_converged || report.status == Status::failed) &&
+                       tuning.step_fall * increment / range >= options.smallest;
     if (retry) {
       u = before;
-      part *= tuning.step_fall;
+      increment *= tuning.step_fall;
       continue;
     }
+    const bool converged = report.status == Status::converged;
+    if (converged && report.iterations <= tuning.few_iterations) {
+      increment *= tuning.step_growth;
+      if (increment / longest > 1) increment = longest;
+    }
+    if (converged && adaptive && next != options.to) report.next_increment = increment;
     result.steps.push_back(report);
     result.seconds += report.seconds;
     result.status = report.status;
     for (Observer* o : observers) o->load_step_finished(report, u);
-    if (report.status != Status::converged) {
+    if (!converged) {
       if (load_step > 0 && report.status != Status::interrupted) u = before;
       break;
     }
-    done = next;
+    t = next;
     ++load_step;
-    if (options.adaptive && report.iterations <= tuning.few_iterations) part = std::min(tuning.step_growth * part, whole);
+    ++fixed;
   }
   return result;
 }

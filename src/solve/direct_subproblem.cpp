@@ -23,12 +23,17 @@ DirectSubproblem::DirectSubproblem(const SubproblemInput& input) : input_(input)
 
 void DirectSubproblem::set(const BlockMatrix& h, std::span<const double> g, double shift) {
   h_ = &h;
-  basis_.set_matrix(h);
-  counts_.clear();
+  refactor(shift);
+  forget_directions();
+  set_gradient(g);
+}
+
+void DirectSubproblem::forget_directions() {
+  basis_.set_matrix(*h_);
+  counts_ = {{shift_, inertia_.negative}};
+  searched_ = has_steepest_ = false;
   seed_ = 0;
   probe_ = -1;
-  refactor(shift);
-  set_gradient(g);
 }
 
 void DirectSubproblem::set_gradient(std::span<const double> g) {

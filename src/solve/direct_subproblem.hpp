@@ -27,6 +27,7 @@ class DirectSubproblem : public Subproblem {
   /// Factorises h + shift M.
   void set(const BlockMatrix& h, std::span<const double> g, double shift) override;
   void set_gradient(std::span<const double> g) override;
+  void forget_directions() override;
   Step step(double radius, const Effort& effort) override;
   Step known_step(double radius, const Step* across = nullptr) const override;
   std::optional<Inertia> inertia() override;

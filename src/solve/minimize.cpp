@@ -213,6 +213,7 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   s.report.load_step = task.load_step;
   s.report.t = u.t;
 
+  s.system.forget_directions();
   s.start(u);
   if (!s.current.ok())
     s.stop(Status::failed, "The energy at the start of the load step is not defined: " + s.current.failure);
@@ -226,10 +227,21 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   s.report.energy = s.current.energy;
   s.report.energies = s.current.terms;
   s.report.gradient_norm = s.current.gradient_norm;
+  s.report.largest_gradient = s.largest_gradient;
   s.report.work = s.system.work;
   s.report.phases = s.system.phases;
   s.report.seconds = seconds_since_start() - begin;
   return s.report;
+}
+
+void Minimizer::resume(const Configuration& u, double largest_gradient) {
+  State& s = *state_;
+  s.largest_gradient = largest_gradient;
+  s.current = {};
+  s.current.u = u;
+  s.system.evaluator.set_proximal(u, 0.0);
+  s.system.evaluator.gradient(s.current);
+  if (s.current.ok()) s.judge();
 }
 
 StepReport minimize(Functional& functional, Configuration& u, const SolverOptions& options, std::span<Observer* const> observers, int load_step) {

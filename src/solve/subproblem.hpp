@@ -42,6 +42,8 @@ class Subproblem {
   virtual void set(const BlockMatrix& h, std::span<const double> g, double shift) = 0;
   /// The same matrix, and all that is known of it, with another gradient.
   virtual void set_gradient(std::span<const double> g) = 0;
+  /// Forgets what steps and searches have taught about the matrix, so that nothing that comes depends on them; keeps what setting it has cost.
+  virtual void forget_directions() = 0;
 
   virtual Step step(double radius, const Effort& effort) = 0;
   /// The best step in the directions that are known already.

@@ -36,6 +36,10 @@ class System {
   /// Of the last linearise() that was true.
   const BlockMatrix& hessian() const { return h_; }
   Subproblem& subproblem() { return *subproblem_; }
+  /// See Subproblem::forget_directions.
+  void forget_directions() {
+    if (subproblem_) subproblem_->forget_directions();
+  }
 
   /// retract(from, step), evaluated.
   Iterate moved(const Configuration& from, std::span<const double> step);

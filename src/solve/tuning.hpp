@@ -85,6 +85,7 @@ struct SolverTuning {
   double step_growth = 2;        ///< one this times as long (at most the length asked for)
   double step_fall = 0.5;        ///< a failed one by one this times as long
   double step_remainder = 1e-3;  ///< a rest of the range < this * the step is taken along with it
+  double same_load = 1e-9;       ///< the loads of two sequences of fixed steps are the same up to this part of a step: they differ by rounding
 };
 
 inline constexpr SolverTuning default_tuning;

@@ -39,6 +39,7 @@ Checkpoint random_checkpoint(const std::vector<Field>& fields) {
   Checkpoint c;
   c.load_step = 3;
   c.increment = 0.1 + 0.2;
+  c.largest_gradient = 1e5 / 3;
   c.configuration.t = 1.0 / 3;
   c.summary = "{\"title\": \"x\"}";
   for (const Field& f : fields) {
@@ -71,6 +72,7 @@ TEST(Checkpoint, BringsBackEveryBit) {
   const Checkpoint back = read_checkpoint(directory / "checkpoint.bin", fields, identity);
   EXPECT_EQ(back.load_step, 3);
   EXPECT_EQ(back.increment, c.increment);
+  EXPECT_EQ(back.largest_gradient, c.largest_gradient);
   EXPECT_EQ(back.configuration.t, c.configuration.t);
   EXPECT_EQ(back.summary, c.summary);
   ASSERT_EQ(back.configuration.values.size(), 2U);
@@ -115,10 +117,26 @@ TEST(Checkpoint, OtherVersionsAndOtherFilesAreRefusedByName) {
   std::string content = read_whole(directory / "whole");
   content[8] = 9;
   std::ofstream(directory / "version", std::ios::binary) << content;
-  EXPECT_TRUE(contains(refusal(directory / "version", fields, 5), "has version 9; this program reads version 1"));
+  EXPECT_TRUE(contains(refusal(directory / "version", fields, 5), "has version 9; this program reads version 2"));
   std::ofstream(directory / "text") << "This is a letter, long enough to be a checkpoint.";
   EXPECT_TRUE(contains(refusal(directory / "text", fields, 5), "not a checkpoint of Karcher"));
   EXPECT_TRUE(contains(refusal(directory / "missing", fields, 5), "No such file"));
+}
+
+TEST(Checkpoint, NumbersThatNoRunHasAreDamage) {
+  const TemporaryDirectory directory;
+  const auto fields = two_fields();
+  const auto of = [&](void (*spoil)(Checkpoint&)) {
+    Checkpoint c = random_checkpoint(fields);
+    spoil(c);
+    write_checkpoint(directory / "c", c, fields, 5);
+    return refusal(directory / "c", fields, 5);
+  };
+  EXPECT_EQ(of([](Checkpoint&) {}), "accepted");
+  EXPECT_TRUE(contains(of([](Checkpoint& c) { c.load_step = -1; }), "is damaged"));
+  EXPECT_TRUE(contains(of([](Checkpoint& c) { c.configuration.t = std::nan(""); }), "is damaged"));
+  EXPECT_TRUE(contains(of([](Checkpoint& c) { c.increment = HUGE_VAL; }), "is damaged"));
+  EXPECT_TRUE(contains(of([](Checkpoint& c) { c.largest_gradient = -1; }), "is damaged"));
 }
 
 TEST(Checkpoint, AnotherProblemIsRefusedAndSaysWhatDiffers) {
@@ -140,6 +158,12 @@ TEST(Identity, TellsMeshesOrdersRulesAndTextsApart) {
   auto geodesic = two_fields();
   geodesic[1].rule = Rule::geodesic;
   EXPECT_NE(of(two_fields()), of(geodesic));
+  // A region of as many cells elsewhere.
+  const auto moved = two_fields();
+  Mesh mesh = moved[0].space->mesh();
+  std::swap(mesh.regions.at("left").cells, mesh.regions.at("right").cells);
+  const auto space = std::make_shared<const Space>(std::make_shared<const Mesh>(mesh), mesh.region("all"), 2);
+  EXPECT_NE(of(two_fields()), of({{"m", &r3, Rule::projection, space}, {"Q", &so3, Rule::projection, space}}));
   EXPECT_NE(Identity().add("ab").add("c").value(), Identity().add("a").add("bc").value());
   EXPECT_EQ(Identity().add(-0.0).value(), Identity().add(0.0).value());
 }

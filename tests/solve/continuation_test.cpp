@@ -61,7 +61,7 @@ TEST(Continuation, VisitsTheLoadStepsInOrder) {
   ASSERT_EQ(recorder.steps.size(), 4u);
   // springs of rest length t, four of them between 0 and t
   for (const StepReport& s : recorder.steps) EXPECT_NEAR(s.energy, 4 * 0.5 * std::pow(0.75 * s.t, 2), 1e-12);
-  EXPECT_EQ(recorder.steps[3].load_step, 3);
+  EXPECT_EQ(recorder.steps[3].load_step, 4);
 }
 
 TEST(Continuation, FailureEndsItAtTheLastConvergedConfiguration) {
@@ -146,6 +146,72 @@ TEST(Continuation, ARestOfTheRangeThatIsTooShortIsTakenAlong) {
   EXPECT_EQ(recorder.begun.back(), 0.75);
 }
 
+TEST(Continuation, GoesOnWhereItWasBrokenOffWithTheLengthThatAdaptiveStepsHad) {
+  struct Keeper : Recorder {
+    std::vector<Configuration> states;
+    void load_step_finished(const StepReport& report, const Configuration& u) override {
+      Recorder::load_step_finished(report, u);
+      states.push_back(u);
+    }
+  };
+  // The one spring breaks around t = 1/4 and 1/2, so that adaptive steps, of 1/2 at most, end at 1/8, 3/8 (twice the first), 7/8 and 1.
+  const auto boundary = [](const Pull& pull) {
+    return [&pull](double t, Configuration& u) {
+      const bool breaks = std::abs(t - 0.25) < 0.05 || std::abs(t - 0.5) < 0.05;
+      u.values[0][static_cast<std::size_t>(pull.last)] = breaks ? 2.8 : 1.5 * t;
+    };
+  };
+  ContinuationOptions fixed, adaptive;
+  fixed.steps = 3;
+  fixed.from = 0.1;
+  adaptive.steps = 2;
+  adaptive.adaptive = true;
+  for (const ContinuationOptions& options : {fixed, adaptive}) {
+    Pull pull(1);
+    Keeper whole;
+    Observer* const keeper = &whole;
+    ASSERT_EQ(run_continuation(*pull.p.functional, pull.p.u, boundary(pull), options, {}, {&keeper, 1}).status, Status::converged);
+    ASSERT_EQ(whole.steps.size(), options.adaptive ? 4U : 3U);
+    EXPECT_EQ(whole.steps[1].t, options.adaptive ? 0.375 : 0.1 + 2.0 / 3 * 0.9);
+    for (std::size_t k = 1; k < whole.steps.size(); ++k) {
+      const StepReport& last = whole.steps[k - 1];
+      Pull rest(1);
+      rest.p.u = whole.states[k - 1];
+      const ContinuationStart start{static_cast<int>(k), last.t, last.next_increment, last.largest_gradient};
+      const auto report = run_continuation(*rest.p.functional, rest.p.u, boundary(rest), options, {}, {}, start);
+      ASSERT_EQ(report.steps.size(), whole.steps.size() - k);
+      for (std::size_t j = k; j < whole.steps.size(); ++j) {
+        const StepReport &resumed = report.steps[j - k], &uninterrupted = whole.steps[j];
+        EXPECT_EQ(resumed.load_step, static_cast<int>(j) + 1);
+        EXPECT_EQ(resumed.t, uninterrupted.t);
+        EXPECT_EQ(resumed.energy, uninterrupted.energy);
+        EXPECT_EQ(resumed.largest_gradient, uninterrupted.largest_gradient);
+        EXPECT_EQ(resumed.iterations, uninterrupted.iterations);
+      }
+    }
+    EXPECT_EQ(whole.steps.back().next_increment, 0);
+  }
+}
+
+TEST(Continuation, GoesOnToOtherLoadsOnlyIfTheyLieAhead) {
+  const auto begun = [](const ContinuationOptions& options, const ContinuationStart& start) {
+    Pull pull(1);
+    Recorder recorder;
+    Observer* const observer = &recorder;
+    run_continuation(*pull.p.functional, pull.p.u, pull.boundary(1), options, {}, {&observer, 1}, start);
+    EXPECT_EQ(last_load_step(options, start), start.load_step + static_cast<int>(recorder.begun.size()));
+    return recorder.begun;
+  };
+  ContinuationOptions options;
+  options.steps = 4;
+  EXPECT_EQ(begun(options, {.load_step = 7, .t = 0.5}), (std::vector<double>{0.75, 1}));
+  EXPECT_EQ(begun(options, {.load_step = 7, .t = 0.3}), (std::vector<double>{0.5, 0.75, 1}));
+  EXPECT_THROW(begun(options, {.load_step = 7, .t = 1}), InputError);
+  EXPECT_THROW(begun(options, {.load_step = 7, .t = -0.1}), InputError);
+  options.to = -1;
+  EXPECT_EQ(begun(options, {.load_step = 1, .t = -0.5}), (std::vector<double>{-0.75, -1}));
+}
+
 TEST(Continuation, AFirstStepThatFailsLeavesTheBestPointALaterOneTheLastConverged) {
   Pull pull(1);
   ContinuationOptions options;
@@ -158,7 +224,7 @@ TEST(Continuation, AnInterruptedStepIsNotTriedAgainAndKeepsItsPoint) {
   struct Interrupt : Recorder {
     void iteration(const IterationRecord& r) override {
       Recorder::iteration(r);
-      if (r.load_step == 1) interrupt_requested = true;
+      if (r.load_step == 2) interrupt_requested = true;
     }
   } interrupt;
   Far far(100);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Checkpoint: everything needed to continue a run after its last finished load step, to the last bit.
+/// Checkpoint: everything needed to continue a run after its last finished load step, on one rank to the last bit.
 ///
 /// The file has a magic word, a version, the identity of the problem, the values of all fields as IEEE doubles and a check sum; it is written atomically.
 /// A file that is foreign, truncated, damaged, of another version or of another problem is refused by a sentence that says which.
@@ -16,8 +16,9 @@
 namespace karcher {
 
 struct Checkpoint {
-  int load_step = 0;     ///< load steps finished
-  double increment = 0;  ///< of t that continuation would try next (adaptive steps)
+  int load_step = 0;            ///< load steps finished
+  double increment = 0;         ///< StepReport::next_increment of the last of them
+  double largest_gradient = 0;  ///< its StepReport::largest_gradient
   Configuration configuration;
   std::string summary;  ///< JSON of the run so far (to_json), so that history and state agree
 };
@@ -28,7 +29,7 @@ class Identity {
   Identity& add(std::string_view text);
   Identity& add(double number);
   Identity& add(long number);
-  /// Names, manifolds, rules, orders, regions and meshes (nodes and cells) of the fields.
+  /// Names, manifolds, rules, orders, regions and meshes (nodes, cells and the cells of all regions) of the fields.
   Identity& add(std::span<const Field> fields);
   std::uint64_t value() const { return hash_; }
 

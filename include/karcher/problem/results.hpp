@@ -20,29 +20,6 @@ namespace karcher {
 /// Seconds of a clock that never goes back, since the first call.
 double seconds_now();
 
-/// Hands the load steps of a run on, with numbers from 1 that go on where a resumed run left off.
-class Renumbered : public Observer {
- public:
-  Renumbered(std::vector<Observer*> observers, int finished) : observers_(std::move(observers)), offset_(finished + 1) {}
-  void load_step_begins(int load_step, double t) override {
-    for (Observer* o : observers_) o->load_step_begins(load_step + offset_, t);
-  }
-  void iteration(const IterationRecord& record) override {
-    IterationRecord r = record;
-    r.load_step += offset_;
-    for (Observer* o : observers_) o->iteration(r);
-  }
-  void load_step_finished(const StepReport& report, const Configuration& u) override {
-    StepReport r = report;
-    r.load_step += offset_;
-    for (Observer* o : observers_) o->load_step_finished(r, u);
-  }
-
- private:
-  std::vector<Observer*> observers_;
-  int offset_;
-};
-
 /// Writes the results of load steps. Lives on all ranks; rank 0 writes.
 class Results : public Observer {
  public:

@@ -62,6 +62,10 @@ class Minimizer {
   };
   /// Minimises from `u`, which is changed in place to the best point, whatever the outcome. Set the functional's load parameter (and u.t) before. Collective.
   StepReport run(Configuration& u, const Task& task, std::span<Observer* const> observers = {});
+  /// Before the first run: what comes is as if a run of this minimizer had ended in u, on one rank to the last bit. Set the functional's load parameter before.
+  /// Costs a factorisation. Collective.
+  /// \param largest_gradient StepReport::largest_gradient of that run
+  void resume(const Configuration& u, double largest_gradient);
 
  private:
   struct State;

@@ -37,7 +37,7 @@ struct PhaseSeconds {
 };
 
 struct StepReport {
-  int load_step = 0;
+  int load_step = 0;  ///< from 1 in a sequence of load steps
   double t = 0;
   Status status = Status::failed;
   std::string reason;  ///< one sentence: which test ended it, its value and threshold; whether it is a local minimum
@@ -45,6 +45,9 @@ struct StepReport {
   double energy = 0;
   std::vector<double> energies;  ///< one per term of the functional
   double gradient_norm = 0;
+  double largest_gradient =
+      0;  ///< |g|_* at the start of this or an earlier load step, the largest: what SolverOptions::gradient_tolerance is relative to
+  double next_increment = 0;      ///< of t, that adaptive load steps try next; 0: they end here, or are not adaptive
   int negative_eigenvalues = -1;  ///< of the true Hessian on the free unknowns; -1 unknown
   int neutral_eigenvalues = 0;    ///< zero to rounding
   WorkCounts work;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Keeps the documents true to the files they quote.
+"""Keeps documents and comments true to the files they quote and name.
 
 A code block after a line `<!-- file: tutorials/hello_sphere.cpp -->` must be that file, letter by letter; after `<!-- lines: FILE FIRST LAST -->` it must be
 the lines from the first that contains FIRST to the next that contains LAST. Relative links must lead to a file that exists. CITATION.cff names the version of
-CMakeLists.txt.
+CMakeLists.txt. Every source that a document or a comment names must be there, by the end of its path: "solve/norm.hpp".
 
 The rows of a table after `<!-- program: doc --markdown solver -->` are what the program prints with these arguments; a test proves it where there is a program, here it
 is looked at where one is named.
@@ -20,6 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 QUOTE = re.compile(r"(<!-- (file|lines): (\S+)(?: \"(.*?)\" \"(.*?)\")? -->\n```\w*\n)(.*?)(^```$)", re.DOTALL | re.MULTILINE)
 TABLE = re.compile(r"(<!-- program: (.*?) -->\n)((?:\|.*\n)*)")
+SOURCE = re.compile(r"(?<![\w./<>*\\-])((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp|ts|mjs|py))\b(?![\w/])")
+CODE_BLOCK = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
@@ -41,10 +43,30 @@ def versions_that_differ():
     return [] if cited == project else [f"CITATION.cff: cites version {cited}, but CMakeLists.txt makes {project}."]
 
 
+def files_of_project(*patterns):
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", *patterns]
+    names = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
+    return [name for name in names if (ROOT / name).is_file()]
+
+
+def sources_that_are_missing():
+    """Sentences, one for each name of a source in a document or a comment that no source has."""
+    names = [name.removesuffix(".in") for name in files_of_project()]
+    known = {name[i:] for name in names for i in [0, *(m.end() for m in re.finditer("/", name))]}
+    sentences = []
+    for place in files_of_project("*.md", "*.hpp", "*.cpp", "viewer/src/*.ts", "viewer/test/*.mjs"):
+        text = (ROOT / place).read_text()
+        if place.endswith(".md"):
+            text = CODE_BLOCK.sub(lambda block: "\n" * block[0].count("\n"), text)
+        for number, line in enumerate(text.splitlines(), 1):
+            said = line if place.endswith(".md") else line.partition("//")[2]
+            sentences += [f"{place}:{number}: names {name}, which does not exist." for name in SOURCE.findall(said) if name not in known]
+    return sentences
+
+
 def main(update, program):
-    names = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True)
-    wrong = versions_that_differ()
-    documents = [ROOT / name for name in names.stdout.split()]
+    wrong = versions_that_differ() + sources_that_are_missing()
+    documents = [ROOT / name for name in files_of_project("*.md")]
     for document in documents:
         text = document.read_text()
         here = document.relative_to(ROOT)
@@ -75,7 +97,7 @@ def main(update, program):
             renewed = TABLE.sub(renew_table, renewed)
         if update and renewed != text:
             document.write_text(renewed)
-        for link in LINK.findall(re.sub(r"^```.*?^```$", "", renewed, flags=re.DOTALL | re.MULTILINE)):
+        for link in LINK.findall(CODE_BLOCK.sub("", renewed)):
             if "://" not in link and not link.startswith("mailto:") and not (document.parent / link).exists():
                 wrong.append(f"{here}: links to {link}, which does not exist.")
     print("\n".join(wrong) if wrong else f"{len(documents)} documents agree with the files they quote and link.")

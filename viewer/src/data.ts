@@ -1,4 +1,4 @@
-// The data of a page: the one TypeScript description of what include/karcher/io/page_data.hpp writes.
+// The data of a page: the one TypeScript description of what src/io/page_data.hpp writes.
 //
 // The page holds base64 of a zlib stream of: "KARCHER1" | u32 number of header bytes (little endian) | header (JSON, UTF-8) | arrays.
 // Offsets of arrays count from the first byte after the header. In JSON a number that is not finite is null.

@@ -2,8 +2,8 @@
 /// \file
 /// Summary: what summary.json holds, key by key (docs/results.md), and how it is written and read back.
 ///
-/// Every number reads back to the same double. JSON knows no NaN and no infinity: such numbers are written as null and read back as NaN; a count that is
-/// unknown (negative_eigenvalues = -1) is null, too.
+/// Every number reads back to the same double. JSON knows no NaN and no infinity: such numbers are written as null and read back as NaN; a count that
+/// is unknown (negative_eigenvalues = -1) is null, too.
 
 #include <filesystem>
 #include <map>
@@ -59,7 +59,7 @@ struct Summary {
 /// A finished load step as the summary tells it; probes are added by the caller.
 LoadStepSummary summarize(const StepReport& report);
 
-/// Terms of the same name are told apart: "hyperelastic", "hyperelastic-2", ...
+/// Terms of the same name are told apart: "harmonic", "harmonic-2", ...
 std::vector<std::string> distinct_names(std::vector<std::string> names);
 
 std::string to_json(const Summary& summary);

@@ -12,7 +12,7 @@
 
 namespace karcher {
 
-// One a line, in the order in which they are told. CMake counts the lines: each becomes a source of its own (src/assembly/terms_of_manifold.cpp.in).
+// One a line, in the order in which they are told. CMake counts the lines: each becomes a source of its own (src/catalogue/one_manifold.cpp.in).
 // clang-format off
 using EveryManifold = ManifoldList<
     Euclidean<1>,

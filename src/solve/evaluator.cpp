@@ -1,5 +1,8 @@
 #include "solve/evaluator.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,6 +67,7 @@ void Evaluator::finish_energy(Iterate& x, const Evaluation& local, double proxim
   }
   sums.pop_back();
   x.terms = std::move(sums);
+  if (x.ok() && !std::isfinite(x.energy)) x.failure = "The sum of the energies is no finite number.";
   if (!x.ok()) x.energy = x.gradient_norm = std::numeric_limits<double>::infinity();
 }
 
@@ -77,6 +81,29 @@ void Evaluator::finish(Iterate& x, const Evaluation& local, double proximal_ener
     if (d < static_cast<std::size_t>(exchange_.owned_dofs())) square += x.g[d] * x.g[d] / mass_[d];
   }
   x.gradient_norm = std::sqrt(sum_over_ranks(square));
+  if (std::isfinite(x.gradient_norm)) return;
+  x.failure = fmt::format("The derivative of the energy is too large to be squared; the largest one is {}.", largest_entry(x.g));
+  x.energy = x.gradient_norm = std::numeric_limits<double>::infinity();
+}
+
+std::string Evaluator::largest_entry(std::span<const double> v) const {
+  const Layout& layout = functional_.layout();
+  const auto size = [](double x) { return std::isnan(x) ? std::numeric_limits<double>::infinity() : std::abs(x); };
+  double largest = -1;
+  for (double x : v.first(static_cast<std::size_t>(exchange_.owned_dofs()))) largest = std::max(largest, size(x));
+  largest = max_over_ranks(largest);
+  std::string place;
+  for (int f = 0; f < static_cast<int>(layout.fields().size()); ++f) {
+    const Field& field = layout.fields()[static_cast<std::size_t>(f)];
+    for (int node : layout.local_nodes(f))
+      for (int k = 0; k < field.manifold->dim && layout.owns(f, node) && place.empty(); ++k) {
+        const double x = v[static_cast<std::size_t>(layout.first_dof(f, node) + k)];
+        const Vec3<double>& at = field.space->position(node);
+        if (size(x) == largest)
+          place = fmt::format("{:.3g} at the node ({:.6g}, {:.6g}, {:.6g}) of the field \"{}\"", x, at[0], at[1], at[2], field.name);
+      }
+  }
+  return first_text(place);
 }
 
 void Evaluator::energy(Iterate& x) {

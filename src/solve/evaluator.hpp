@@ -1,6 +1,7 @@
 #pragma once
 /// \file
 /// Evaluator: energy, gradient and Hessian of a functional summed over the ranks, with failures that all ranks know, and the proximal term of a gradient flow.
+/// What it gives without a failure is finite: the energy, every entry of the derivatives, and the norm of the gradient.
 
 #include <span>
 #include <string>
@@ -38,6 +39,9 @@ class Evaluator {
   /// Fill everything of x but x.u. Collective.
   void gradient(Iterate& x);
   void hessian(Iterate& x, BlockMatrix& h);
+
+  /// "3.2e+155 at the node (1, 0.5, 0) of the field "m"": the entry of largest absolute value (or NaN) of a vector of local dofs over all ranks. Collective.
+  std::string largest_entry(std::span<const double> v) const;
 
  private:
   void finish_energy(Iterate& x, const Evaluation& local, double proximal);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "karcher/error.hpp"
 #include "karcher/solve/collectives.hpp"
@@ -137,6 +138,11 @@ bool Minimizer::State::iterate() {
     Step step = subproblem.step(radius, tuning.trial);
     const bool newton = step.multiplier == 0;
     if (newton) step = subproblem.step(radius, tuning.newton);
+    if (!(step.norm > 0 && std::isfinite(step.norm) && std::isfinite(step.decrease))) {
+      stop(Status::failed, fmt::format("No step could be computed from a gradient of norm {:.3g}: its largest entry is {}, and numbers overflow.",
+                                       current.gradient_norm, system.evaluator.largest_entry(current.g)));
+      return true;
+    }
     const double significant = tuning.significant * current.noise;
     const bool tiny = step.decrease <= significant;
     if (tiny && !newton && radius < tuning.shortest_radius) {  // is the radius tiny, or what is there to gain?

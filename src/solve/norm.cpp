@@ -1,5 +1,7 @@
 #include "karcher/solve/norm.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "karcher/error.hpp"
 #include "karcher/mesh/quadrature.hpp"
 
 namespace karcher {
@@ -78,6 +81,15 @@ std::vector<double> step_mass(const Layout& layout) {
     std::vector<double> nodal = lumped_mass(*field.space);
     const double measure = std::accumulate(nodal.begin(), nodal.end(), 0.0);
     const double size = length_of(field.space->mesh());
+    for (int node = 0; node < field.space->node_count(); ++node) {  // the same on all ranks
+      const double part = nodal[static_cast<std::size_t>(node)] / measure, least = part / (size * size);
+      const Vec3<double>& x = field.space->position(node);
+      if (!(part > 0 && std::isfinite(part) && least > 0 && std::isfinite(least)))
+        throw InputError(
+            fmt::format("The mesh cannot be computed with: around the node ({:.6g}, {:.6g}, {:.6g}) of the field \"{}\" its cells have no area or "
+                        "volume, or lengths too large or too small to be squared.",
+                        x[0], x[1], x[2], field.name));
+    }
     for (int node : layout.local_nodes(static_cast<int>(f)))
       for (int k = 0; k < field.manifold->dim; ++k) {
         const double length = field.manifold->lengths[static_cast<std::size_t>(k)] ? size : 1.0;

@@ -1,5 +1,7 @@
 #include "solve/predictor.hpp"
 
+#include <cmath>
+
 #include "solve/boundary.hpp"
 #include "solve/corrections.hpp"
 #include "solve/multiply.hpp"
@@ -10,7 +12,7 @@ std::optional<Prediction> predict(System& system, Configuration& u, const Config
   const SolverTuning& tuning = system.tuning;
   const std::vector<double> delta = boundary_increment(system.layout, u, boundary);
   const double reach = uniform_norm(system.layout, system.mass, delta);
-  if (!(reach > tuning.boundary_moves)) {
+  if (reach <= tuning.boundary_moves) {
     copy_fixed_nodes(system.layout, boundary, u);
     return {};
   }
@@ -18,6 +20,7 @@ std::optional<Prediction> predict(System& system, Configuration& u, const Config
   naive.x.u = u;
   retract_to_boundary(system.layout, u, delta, boundary, naive.x.u);
   system.evaluator.gradient(naive.x);
+  if (!std::isfinite(reach)) return naive;
 
   Prediction linear;
   linear.x.energy = std::numeric_limits<double>::infinity();

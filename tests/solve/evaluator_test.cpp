@@ -69,6 +69,28 @@ TEST(Evaluator, TellsAllRanksOfAFailure) {
   EXPECT_FALSE(x.ok());
 }
 
+TEST(Evaluator, AGradientWhoseSquareOverflowsIsAFailureThatNamesItsPlace) {
+  for (double slope : {1e155, -1e300}) {
+    TwoUnknowns p([=](double, double) { return Local2{0, 3, slope, 0, 0, 0}; });
+    Setting s(p);
+    Iterate x;
+    x.u = p.u;
+    s.evaluator.gradient(x);
+    EXPECT_NE(x.failure.find("too large to be squared"), std::string::npos) << x.failure;
+    EXPECT_NE(x.failure.find(slope > 0 ? "1e+155 at the node (1, 0, 0) of the field \"u\"" : "-1e+300 at the node (1, 0, 0)"), std::string::npos)
+        << x.failure;
+    EXPECT_EQ(x.energy, INFINITY);
+    EXPECT_EQ(x.gradient_norm, INFINITY);
+  }
+  TwoUnknowns p([](double, double) { return Local2{0, 3, 1e150, 0, 0, 0}; });
+  Setting s(p);
+  Iterate x;
+  x.u = p.u;
+  s.evaluator.gradient(x);
+  EXPECT_TRUE(x.ok()) << x.failure;
+  EXPECT_NEAR(x.gradient_norm, 1e150 / unit, 1e136);
+}
+
 TEST(Evaluator, TheProximalTermIsTheSquaredDistanceToItsCentreWithTheLumpedMass) {
   // On the sphere from e1: nodes at angles 0.3 and 0.5 on the equator; lumped masses 1/2 each.
   const auto nothing = [](const std::vector<const double*>&, const Vec3<double>&, double, double*, double*) { return testing::CellValue{}; };

@@ -10,6 +10,7 @@
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/exchange.hpp"
 #include "solve/cell_functions.hpp"
+#include "solve/few_unknowns.hpp"
 
 namespace karcher {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 using testing::CellFunction;
 using testing::CellValue;
 using testing::fixed_ends;
+using testing::Local;
+using testing::OneUnknown;
 using testing::rayleigh;
 using testing::Recorder;
 using testing::rosenbrock;
@@ -170,6 +173,30 @@ TEST(Minimize, AnInfiniteEnergyAtTheStartIsAFailureThatSaysWhere) {
   EXPECT_EQ(report.status, Status::failed);
   EXPECT_NE(report.reason.find("(1.5, 0, 0)"), std::string::npos) << report.reason;
   EXPECT_EQ(before.values, p.u.values);
+}
+
+TEST(Minimize, AnInfiniteGradientIsNoConvergence) {
+  for (double slope : {1e155, 1e300}) {
+    OneUnknown p([=](double x) { return Local{slope * x, slope, 1}; });
+    const StepReport report = minimize(*p.functional, p.u, {}, {});
+    EXPECT_EQ(report.status, Status::failed) << report.reason;
+    EXPECT_NE(report.reason.find("at the node (1, 0, 0) of the field \"u\""), std::string::npos) << report.reason;
+    EXPECT_EQ(report.negative_eigenvalues, -1);
+    EXPECT_EQ(p.x(), 0);
+  }
+}
+
+TEST(Minimize, AStepThatOverflowsOrVanishesInTheArithmeticIsNoConvergence) {
+  const Local too_long{0, 1e153, 1e-153}, too_short{0, 1, 1e300};
+  for (const Local& at : {too_long, too_short}) {
+    OneUnknown p([=](double) { return at; });
+    const StepReport report = minimize(*p.functional, p.u, {}, {});
+    EXPECT_NE(report.status, Status::converged) << report.reason;
+  }
+  OneUnknown p([=](double) { return too_short; });
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  EXPECT_EQ(report.status, Status::failed);
+  EXPECT_NE(report.reason.find("1 at the node (1, 0, 0) of the field \"u\""), std::string::npos) << report.reason;
 }
 
 TEST(Minimize, ARejectedStepLeavesTheBitsUnchanged) {

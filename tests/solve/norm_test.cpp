@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <numeric>
+#include <string>
 #include <vector>
 
+#include "karcher/error.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/product.hpp"
 #include "karcher/manifold/rotation.hpp"
@@ -102,6 +104,31 @@ TEST(StepMass, MakesFieldsComparableAndFreeOfUnits) {
     }
     for (std::size_t k : {0, 1, 2}) EXPECT_NEAR(sums[0][k], 4 / 13.0, 1e-14);
     for (std::size_t k : {0, 1}) EXPECT_NEAR(sums[1][k], 1, 1e-14);
+  }
+}
+
+TEST(StepMass, RefusesAMeshWhoseLengthsCannotBeSquaredOrWhoseCellsAreEmpty) {
+  const auto layout_of = [](std::vector<double> x) {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->dim = 1;
+    Cell cell;
+    cell.kind = CellKind::line;
+    for (int i = 0; i < static_cast<int>(x.size()); ++i) {
+      mesh->nodes.push_back({{x[static_cast<std::size_t>(i)], 0, 0}});
+      cell.nodes = {i - 1, i};
+      if (i > 0) mesh->cells.push_back(cell);
+    }
+    mesh->regions["all"] = {"all", 1, mesh->cells};
+    const std::vector<Field> fields{{"u", &manifold_by_name("R1"), Rule::projection, std::make_shared<Space>(mesh, mesh->regions.at("all"), 1)}};
+    return Layout(fields, std::vector<std::vector<char>>(1), partition_cells(*mesh, 1), 0, 1);
+  };
+  for (const std::vector<double>& x : {std::vector<double>{0, 1e160}, {0, 1, 1, 1}}) {
+    try {
+      step_mass(layout_of(x));
+      FAIL();
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(") of the field \"u\" its cells have no"), std::string::npos) << e.what();
+    }
   }
 }
 

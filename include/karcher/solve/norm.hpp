@@ -17,7 +17,7 @@ namespace karcher {
 /// integral of the basis functions of a space over its region, by diagonal scaling: positive, sums to the measure of the region. [node]
 std::vector<double> lumped_mass(const Space& space);
 
-/// M_d for every local dof of the layout, fixed ones included.
+/// M_d for every local dof of the layout, fixed ones included. \throws InputError, on all ranks, where M_d is not positive and finite.
 std::vector<double> step_mass(const Layout& layout);
 
 }  // namespace karcher

@@ -41,10 +41,11 @@ void correct(System& system, Iterate& x, double base_energy, const Step& step, d
   for (int k = 0; k < system.options.max_corrections && x.gradient_norm > tolerance; ++k) {
     system.subproblem().set_gradient(x.g);
     const Step whole = system.subproblem().step(reach, tuning.correction);
-    const bool tiny = whole.decrease <= tuning.significant * x.noise;
+    const double significant = system.significant(x, whole.s);
+    const bool tiny = whole.decrease <= significant;
     Correction next = best_correction(system, x, step, whole, reach, tiny);
     const double gain = x.energy - next.x.energy;
-    if (!next.x.ok() || !(gain > (tiny ? -tuning.significant * x.noise : 0.0))) break;
+    if (!next.x.ok() || !(gain > (tiny ? -significant : 0.0))) break;
     system.evaluator.gradient(next.x);
     const bool steadier = next.x.gradient_norm <= tuning.steadier * x.gradient_norm;
     if (!next.x.ok() || (tiny && !steadier)) break;

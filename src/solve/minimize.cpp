@@ -143,11 +143,11 @@ bool Minimizer::State::iterate() {
                                        current.gradient_norm, system.evaluator.largest_entry(current.g)));
       return true;
     }
-    const double significant = tuning.significant * current.noise;
+    const double significant = system.significant(current, step.s);
     const bool tiny = step.decrease <= significant;
     if (tiny && !newton && radius < tuning.shortest_radius) {  // is the radius tiny, or what is there to gain?
       const Step longer = subproblem.step(tuning.shortest_radius, tuning.trial);
-      if (longer.decrease > significant) {
+      if (longer.decrease > system.significant(current, longer.s)) {
         if (rejected) {
           stop(Status::not_converged, fmt::format("No step reduces the energy, however short; the gradient norm is {:.3g}, its threshold {:.3g}.{}",
                                                   current.gradient_norm, tolerance(), trouble.empty() ? "" : " " + trouble));
@@ -157,6 +157,9 @@ bool Minimizer::State::iterate() {
         continue;
       }
     }
+
+    if (const double rounding = system.rounding().gradient_norm; tiny && !rejected && current.gradient_norm <= rounding)
+      return end(fmt::format("The gradient norm {:.3g} is rounding, which may be {:.3g} with these stiffnesses", current.gradient_norm, rounding));
 
     Iterate x = system.moved(current.u, step.s);
     if (x.ok()) correct(system, x, current.energy, step, tolerance());

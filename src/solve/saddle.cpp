@@ -11,7 +11,7 @@ std::optional<Iterate> escape_saddle(System& system, const Iterate& saddle) {
   system.exchange.update_ghosts(direction);
   const double slope = system.exchange.dot(direction, saddle.g);
   std::optional<Iterate> best;
-  double least = saddle.energy - tuning.significant * saddle.noise;
+  double least = saddle.energy - tuning.significant * (saddle.noise + system.rounding().energy);
   for (double length = slope > 0 ? -tuning.escape_from : tuning.escape_from; std::abs(length) < tuning.escape_up_to; length *= 2) {
     std::vector<double> s = direction;
     for (double& x : s) x *= length;

@@ -1,6 +1,7 @@
 #include "solve/system.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "karcher/solve/collectives.hpp"
 #include "karcher/solve/norm.hpp"
@@ -38,6 +39,7 @@ bool System::linearise(Iterate& x, double shift) {
     linearised_at_.values.clear();
     return false;
   }
+  rounding_ = rounding_of(exchange, h_, fixed, mass, sizes_of(layout, x.u));
   // The matrix may be the same although the load has changed (dead loads): then so is the factorisation.
   if (same_place && !on_any_rank(before != h_.values)) {
     subproblem_->set_gradient(x.g);
@@ -51,6 +53,13 @@ bool System::linearise(Iterate& x, double shift) {
   subproblem_->set(h_, x.g, shift);
   linearised_at_.values = x.u.values;
   return true;
+}
+
+double System::significant(const Iterate& x, std::span<const double> s) const {
+  double square = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(exchange.owned_dofs()); ++d)
+    square += rounding_.gradient[d] * s[d] * rounding_.gradient[d] * s[d];
+  return tuning.significant * (x.noise + rounding_.energy) + tuning.uncertain * std::sqrt(sum_over_ranks(square));
 }
 
 Iterate System::moved(const Configuration& from, std::span<const double> step) {

@@ -8,6 +8,7 @@
 
 #include "karcher/solve/minimize.hpp"
 #include "solve/evaluator.hpp"
+#include "solve/rounding.hpp"
 #include "solve/subproblem.hpp"
 #include "solve/tuning.hpp"
 
@@ -41,12 +42,19 @@ class System {
     if (subproblem_) subproblem_->forget_directions();
   }
 
+  /// Of the last linearise() that was true.
+  const Rounding& rounding() const { return rounding_; }
+  /// What the energies of x and of the point where it was linearised tell of the step s between them: a decrease that is not larger is lost in rounding, that of
+  /// the energies or that of the gradient by which it is promised. Collective.
+  double significant(const Iterate& x, std::span<const double> s) const;
+
   /// retract(from, step), evaluated.
   Iterate moved(const Configuration& from, std::span<const double> step);
 
  private:
   const std::vector<std::uint64_t> numbers_;
   BlockMatrix h_;
+  Rounding rounding_;
   std::unique_ptr<Subproblem> subproblem_;
   Configuration linearised_at_;  ///< where the matrix and the subproblem belong; no values: nowhere
 };

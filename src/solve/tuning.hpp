@@ -13,8 +13,9 @@ struct SolverTuning {
   // What an energy can tell.
   /// noise = this * sum |e|, e the terms of the energy: some twenty roundings, since a sum over many cells loses more than one.
   double noise = 4e-15;
-  /// A step with decrease <= this * noise is tiny: the energy cannot judge it, so the gradient does.
-  double significant = 10;
+  /// A step s with decrease <= significant * (noise + Rounding::energy) + uncertain * (sum_d (r_d s_d)^2)^1/2, r = Rounding::gradient, is tiny: the energy cannot
+  /// judge it, so the gradient does. The last term is what independent errors r make of the model's g.s.
+  double significant = 10, uncertain = 2;
 
   // Acceptance of a trial point.
   /// Accepted if (fall of the energy) / decrease > this; small, since a rejected step costs as much as an accepted one and only divergence must be prevented.

@@ -19,12 +19,14 @@ using testing::CellFunction;
 using testing::CellValue;
 using testing::fixed_ends;
 using testing::Local;
+using testing::Local2;
 using testing::OneUnknown;
 using testing::rayleigh;
 using testing::Recorder;
 using testing::rosenbrock;
 using testing::SmallProblem;
 using testing::springs;
+using testing::TwoUnknowns;
 
 TEST(Minimize, FindsTheMinimumOfTheChainedRosenbrockFunction) {
   for (int max_corrections : {0, 20}) {
@@ -184,6 +186,88 @@ TEST(Minimize, AnInfiniteGradientIsNoConvergence) {
     EXPECT_EQ(report.negative_eigenvalues, -1);
     EXPECT_EQ(p.x(), 0);
   }
+}
+
+/// Twenty springs of length 0.1 and stiffness 1e6 in a row, one end held at `place`, the other pulled by `load`; they start at their lengths.
+struct StiffSprings : SmallProblem {
+  explicit StiffSprings(double place, double load) : SmallProblem(20, manifold_by_name("R1"), energy(load), row(place), held()) {}
+  static CellFunction energy(double load) {
+    return [load](const auto& u, const auto& x, double, double* g, double* h) {
+      const double r = *u[1] - *u[0] - 0.1, force = x[0] > 18.5 ? load : 0.0;
+      if (g) {
+        g[0] = -1e6 * r;
+        g[1] = 1e6 * r - force;
+      }
+      if (h) {
+        h[0] = h[3] = 1e6;
+        h[1] = h[2] = -1e6;
+      }
+      return CellValue{0.5e6 * r * r - force * *u[1]};
+    };
+  }
+  static std::vector<double> row(double place) {
+    std::vector<double> x;
+    for (int i = 0; i <= 20; ++i) x.push_back(place + 0.1 * i);
+    return x;
+  }
+  static std::vector<char> held() {
+    const auto mesh = testing::line_mesh(20);
+    const Space space(mesh, mesh->regions.at("all"), 1);
+    std::vector<char> fixed;
+    for (int node = 0; node <= 20; ++node) fixed.push_back(space.position(node)[0] < 0.5);
+    return fixed;
+  }
+};
+
+TEST(Minimize, AnEquilibriumAtTheStartIsConvergedWithoutAnIteration) {
+  for (const double place : {0.0, -7.3, 1e3, 1e6}) {
+    StiffSprings p(place, 0);
+    const Configuration before = p.u;
+    const StepReport report = minimize(*p.functional, p.u, {}, {});
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    EXPECT_EQ(report.iterations, 0);
+    EXPECT_EQ(report.negative_eigenvalues, 0);
+    EXPECT_EQ(report.work.factorisations, 1);
+    EXPECT_NE(report.reason.find("is rounding"), std::string::npos) << report.reason;
+    EXPECT_EQ(before.values, p.u.values);
+  }
+}
+
+TEST(Minimize, ASmallLoadMovesAStiffStructureAsFarAsItsGradientIsKnown) {
+  for (const auto& [place, load] : {std::pair{0.0, 1e-7}, {0.0, 1e-3}, {1e3, 1e-3}}) {
+    StiffSprings p(place, load);
+    const StepReport report = minimize(*p.functional, p.u, {}, {});
+    complete(*p.layout, p.u);
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    EXPECT_LE(report.iterations, 2);
+    EXPECT_NEAR(p.value(20), place + 2 + 20 * load / 1e6, 1e-15 * std::max(2.0, place)) << load;
+  }
+}
+
+TEST(Minimize, ALoadThatIsNotAlongTheRoundingOfTheGradientIsNotTakenForRounding) {
+  // a is held at 2 by a stiff spring whose force is wrong by rounding; b is pulled by a smaller force, which is exact.
+  const double load = 1e-10, rounding = 3e-10;
+  TwoUnknowns p([=](double a, double b) { return Local2{0.5e6 * (a - 2) * (a - 2) + 0.5 * b * b - load * b, rounding, b - load, 1e6, 0, 1}; }, 2, 0);
+  const StepReport report = minimize(*p.functional, p.u, {}, {});
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_NE(report.reason.find("is rounding"), std::string::npos) << report.reason;
+  EXPECT_EQ(report.iterations, 1);
+  EXPECT_NEAR(p.b(), load, 1e-6 * load);
+}
+
+TEST(Minimize, ALoadStepWithoutLoadDoesNotEndALoadingThatSetsInLater) {
+  CellFunction late = [](const auto& u, const auto& x, double t, double* g, double* h) {
+    return StiffSprings::energy(std::max(0.0, t - 0.5))(u, x, t, g, h);
+  };
+  SmallProblem p(20, manifold_by_name("R1"), late, StiffSprings::row(0), StiffSprings::held());
+  ContinuationOptions steps;
+  steps.steps = 4;
+  const ContinuationReport report = run_continuation(*p.functional, p.u, {}, steps, {}, {});
+  complete(*p.layout, p.u);
+  EXPECT_EQ(report.status, Status::converged);
+  ASSERT_EQ(report.steps.size(), 4u);
+  EXPECT_EQ(report.steps[1].iterations, 0);
+  EXPECT_NEAR(p.value(20), 2 + 20 * 0.5 / 1e6, 1e-15);
 }
 
 TEST(Minimize, AStepThatOverflowsOrVanishesInTheArithmeticIsNoConvergence) {

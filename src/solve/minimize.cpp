@@ -222,7 +222,6 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   s.report.load_step = task.load_step;
   s.report.t = u.t;
 
-  s.system.forget_directions();
   s.start(u);
   if (!s.current.ok())
     s.stop(Status::failed, "The energy at the start of the load step is not defined: " + s.current.failure);

@@ -37,6 +37,8 @@ std::string Stability::kind() const {
 std::optional<Stability> stability_at(System& system, Iterate& x) {
   if (!system.linearise(x, 0.0)) return {};
   Subproblem& subproblem = system.subproblem();
+  // So that what the next load step begins with depends on this point alone, and a resumed run begins with the same.
+  subproblem.forget_directions();
   const std::optional<Inertia> inertia = subproblem.inertia();
   if (!inertia) return Stability{};
   Stability result{inertia->negative, inertia->null};

@@ -37,10 +37,6 @@ class System {
   /// Of the last linearise() that was true.
   const BlockMatrix& hessian() const { return h_; }
   Subproblem& subproblem() { return *subproblem_; }
-  /// See Subproblem::forget_directions.
-  void forget_directions() {
-    if (subproblem_) subproblem_->forget_directions();
-  }
 
   /// Of the last linearise() that was true.
   const Rounding& rounding() const { return rounding_; }

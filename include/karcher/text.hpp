@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names that a user may have meant: the nearest of a list, and the half sentence that error messages end with.
+/// Names: which may stand in files, which a user may have meant (the nearest of a list), and the half sentence that error messages end with.
 
 #include <algorithm>
 #include <cctype>
@@ -43,6 +43,41 @@ inline std::string nearest_name(std::string_view name, std::span<const std::stri
     }
   }
   return best;
+}
+
+/// Whether text holds control characters (C0, DEL, C1 in UTF-8), which terminals obey and XML cannot hold.
+inline bool has_control_characters(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool c1 = c == 0xC2 && i + 1 < text.size() && (static_cast<unsigned char>(text[i + 1]) & 0xE0) == 0x80;
+    if (c < 0x20 || c == 0x7F || c1) return true;
+  }
+  return false;
+}
+
+/// The same with every control character but the line end as "\\x1b", for terminals.
+inline std::string printable(std::string_view text) {
+  std::string s;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool c1 = i + 1 < text.size() && has_control_characters(text.substr(i, 2)) && !has_control_characters(text.substr(i, 1)) &&
+                    !has_control_characters(text.substr(i + 1, 1));
+    if (text[i] != '\n' && (has_control_characters(text.substr(i, 1)) || c1)) {
+      constexpr std::string_view digits = "0123456789abcdef";
+      const auto c = static_cast<unsigned char>(text[c1 ? ++i : i]);
+      s += {'\\', 'x', digits[c >> 4], digits[c & 15]};
+    } else {
+      s += text[i];
+    }
+  }
+  return s;
+}
+
+/// Why a name cannot be given to a region, a field or a probe, as the end of a sentence; empty if it can. Names become parts of file names.
+inline std::string fault_of_name(std::string_view name) {
+  constexpr std::size_t longest = 100;
+  if (name.empty()) return "is empty";
+  if (has_control_characters(name)) return "has control characters";
+  return name.size() > longest ? "has more than " + std::to_string(longest) + " characters" : "";
 }
 
 /// "a, b, c" for messages that list what is known.

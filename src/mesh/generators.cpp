@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "karcher/error.hpp"
+#include "karcher/mesh/mesh_size.hpp"
 #include "karcher/text.hpp"
 #include "mesh/shapes.hpp"
 
@@ -40,6 +41,7 @@ GeneratorArgument surface_shape() {
 struct Generator {
   GeneratorInfo info;
   Mesh (*make)(const Arguments&);
+  int sectors = 0;  ///< of n x n triangles, where cells is one number n; 0: cells are numbers along directions
 };
 
 const std::vector<Generator>& table() {
@@ -80,12 +82,14 @@ const std::vector<Generator>& table() {
            choice("shape", "of the cells", {"triangle", "quadrilateral"}),
            {"grading", "1", "size of the cells at the rim, along the radius, over that in the centre", {1}, {}, 1, true, false}},
           {"boundary"}},
-         shapes::disc},
+         shapes::disc,
+         6},
         {{"sphere",
           "Sphere around the origin: an icosahedron with each edge cut into n, 20 n x n triangles.",
           {length("radius", "of the sphere", 1), counts("n", {4})},
           {}},
-         shapes::sphere},
+         shapes::sphere,
+         20},
         {{"torus",
           "((R + r cos v) cos u, (R + r cos v) sin u, r sin v).",
           {length("radius", "R, of the circle in the middle of the tube", 1), length("tube", "r < R", 0.4), counts("along u and across v", {24, 12}),
@@ -133,7 +137,29 @@ std::vector<std::string> names_of(const std::vector<GeneratorArgument>& argument
   return names;
 }
 
-Arguments resolve(const GeneratorInfo& info, const GeneratorOptions& given) {
+/// Refuses what would be too large, before it is made.
+void check_size(const Generator& g, const GeneratorOptions& all) {
+  const std::vector<double>& counts = all.numbers.at("cells");
+  double cells = std::accumulate(counts.begin(), counts.end(), 1.0, std::multiplies<>());
+  CellKind kind = CellKind::triangle;
+  if (g.sectors > 0) {
+    cells *= g.sectors * counts[0];
+  } else if (const auto shape = all.words.find("shape"); shape == all.words.end()) {
+    kind = CellKind::line;
+  } else {
+    const std::string& word = shape->second;
+    kind = word == "triangle" ? CellKind::triangle : word == "quadrilateral" ? CellKind::quadrilateral : CellKind::hexahedron;
+    if (word == "triangle") cells *= 2;
+    if (word == "tetrahedron") {
+      kind = CellKind::tetrahedron;
+      cells *= 6;
+    }
+  }
+  require_room(mesh_size(kind, static_cast<int>(all.numbers.at("order")[0]), cells), "Mesh generator \"" + g.info.name + "\": a mesh");
+}
+
+Arguments resolve(const Generator& g, const GeneratorOptions& given) {
+  const GeneratorInfo& info = g.info;
   const auto refuse = [&](const std::string& sentence) { throw InputError("Mesh generator \"" + info.name + "\": " + sentence); };
   GeneratorOptions all = given;
   const auto check_known = [&](const std::string& name, bool is_choice) {
@@ -165,10 +191,7 @@ Arguments resolve(const GeneratorInfo& info, const GeneratorOptions& given) {
     }
   }
   if (all.numbers.at("order")[0] > 3) refuse("order is 1, 2 or 3.");
-  // Numbers of nodes must stay within an int, at 27 nodes per cell.
-  const std::vector<double>& cells = all.numbers.at("cells");
-  const double grid = cells.size() == 1 ? cells[0] * cells[0] : std::accumulate(cells.begin(), cells.end(), 1.0, std::multiplies<>());
-  if (grid > 2e7 && info.name != "interval") refuse("cells asks for more than 20 million cells.");
+  check_size(g, all);
   return Arguments(std::move(all));
 }
 
@@ -196,7 +219,7 @@ const GeneratorInfo& generator(const std::string& name) { return find(name).info
 
 Mesh generate(const GeneratorOptions& options) {
   const Generator& g = find(options.name);
-  return g.make(resolve(g.info, options));
+  return g.make(resolve(g, options));
 }
 
 }  // namespace karcher

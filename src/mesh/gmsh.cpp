@@ -1,9 +1,13 @@
 #include "karcher/mesh/gmsh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "karcher/error.hpp"
+#include "karcher/mesh/folds.hpp"
 #include "karcher/mesh/node_key.hpp"
 #include "mesh/gmsh_content.hpp"
 
@@ -36,6 +40,9 @@ class Assembler {
     } catch (const InputError& e) {
       throw InputError(path_ + ": " + e.what());
     }
+    refuse_folds(mesh);
+    if (content_.periodic)
+      mesh.warnings.push_back(path_ + ": the section $Periodic is not read: fields do not join the nodes that it lists as the same.");
     return mesh;
   }
 
@@ -51,6 +58,7 @@ class Assembler {
       if (found.inserted) {
         joined.cells.push_back(std::move(layer.cells[i]));
         joined.groups.push_back(group);
+        joined.tags.push_back(layer.tags[i]);
         continue;
       }
       int& known = joined.groups[at(found.number)];
@@ -115,9 +123,28 @@ class Assembler {
     for (Cell& c : mesh.cells) renumber(c);
     for (auto& [region_name, region] : mesh.regions)
       for (Cell& c : region.cells)
-        if (!renumber(c))
-          throw InputError(path_ + ": the physical group \"" + region_name + "\" has a " + std::string(name(c.kind)) + " that is not part of any " +
-                           std::array{"line", "surface", "solid"}[at(mesh.dim - 1)] + " cell of the mesh.");
+        if (!renumber(c) && !mesh.left_out.contains(region_name))
+          mesh.left_out[region_name] = path_ + ": the physical group \"" + region_name + "\" has a " + std::string(name(c.kind)) +
+                                       " that is not part of any " + std::array{"line", "surface", "solid"}[at(mesh.dim - 1)] +
+                                       " cell of the mesh, so it is no region.";
+    for (const auto& [region_name, reason] : mesh.left_out) {
+      mesh.regions.erase(region_name);
+      mesh.warnings.push_back(reason);
+    }
+  }
+
+  void refuse_folds(const Mesh& mesh) const {
+    const std::optional<Fold> fold = first_fold(mesh);
+    if (!fold) return;
+    const Cell& cell = mesh.cells[at(fold->cell)];
+    static constexpr std::array<const char*, 3> measure = {"length", "area", "volume"};
+    throw InputError(fmt::format(
+        "{}: {} {} is folded over itself at ({:.6g}, {:.6g}, {:.6g}): its {} by reference {} there is {:.3g} and elsewhere up to {:.3g}. {}", path_,
+        name(cell.kind), content_.layers[at(mesh.dim)].tags[at(fold->cell)], fold->place[0], fold->place[1], fold->place[2],
+        measure[at(mesh.dim - 1)], measure[at(mesh.dim - 1)], fold->least, fold->most,
+        cell.order > 1
+            ? "Gmsh unfolds curved cells with Mesh.HighOrderOptimize = 2 (gmsh -optimize_ho); smaller cells at the curved boundary help, too."
+            : "All corners must be convex; smaller cells there help."));
   }
 
   std::string path_;

@@ -1,9 +1,14 @@
 #include "mesh/gmsh_content.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
 #include <unordered_map>
 
+#include "karcher/text.hpp"
 #include "mesh/gmsh_cells.hpp"
 #include "mesh/gmsh_input.hpp"
 
@@ -47,11 +52,12 @@ class Reader {
     while (!in_.at_end()) {
       const std::string_view token = in_.word();
       if (token.front() != '$') {
-        if (content_.version == 0) in_.fail("this is not a Gmsh mesh file: it does not begin with $MeshFormat.");
+        if (content_.version == 0) in_.fail("this is not a Gmsh mesh file: it does not begin with $MeshFormat." + conversion());
         in_.fail("a section is expected, not \"" + std::string(token.substr(0, 40)) + "\".");
       }
       in_.section = token.substr(1);
-      if (content_.version == 0 && in_.section != "MeshFormat" && in_.section != "Comments") in_.fail("the file must begin with $MeshFormat.");
+      if (content_.version == 0 && in_.section != "MeshFormat" && in_.section != "Comments")
+        in_.fail("the file must begin with $MeshFormat." + conversion());
       read_section();
     }
     if (content_.version == 0) in_.fail("this is not a Gmsh mesh file: it is empty.");
@@ -71,13 +77,32 @@ class Reader {
       read_entities(false);
     else if (section == "PartitionedEntities" && content_.version == 4)
       read_entities(true);
-    else if (section == "Nodes")
-      content_.version == 4 ? read_nodes_4() : read_nodes_2();
+    else if (section == "Nodes" && content_.version == 4)
+      read_nodes_4();
+    else if (section == "Nodes" || (section == "ParametricNodes" && content_.version == 2))
+      read_nodes_2(section == "ParametricNodes");
     else if (section == "Elements")
       content_.version == 4 ? read_cells_4() : read_cells_2();
     else
       skipping = true;
+    if (section == "Periodic") content_.periodic = true;
     in_.end_section(skipping);
+  }
+
+  /// The command that makes a mesh file of what this seems to be.
+  std::string conversion() const {
+    const std::filesystem::path path = in_.path();
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string from = path.filename().string(), to = path.stem().string() + (ending == ".msh" ? "-41.msh" : ".msh");
+    const auto among = [&](std::initializer_list<const char*> endings) { return std::find(endings.begin(), endings.end(), ending) != endings.end(); };
+    if (among({".geo", ".step", ".stp", ".brep", ".iges", ".igs"}))
+      return " It is a geometry: mesh it with `gmsh -2 -order 2 -format msh41 -o " + to + " " + from + "` (solids: -3).";
+    if (among({".msh", ".unv", ".med", ".mesh", ".bdf", ".nas", ".vtk", ".cgns", ".stl", ".su2"}))
+      return " Gmsh converts it: `gmsh -save -format msh41 -o " + to + " " + from + "`.";
+    if (among({".vtu", ".inp", ".xdmf", ".xmf", ".e", ".ex2", ".exo", ".obj", ".off", ".ply", ".xml", ".mdpa", ".dat", ".fem", ".ugrid"}))
+      return " meshio converts it: `meshio convert --output-format gmsh " + from + " " + to + "`.";
+    return "";
   }
 
   void read_format() {
@@ -85,7 +110,7 @@ class Reader {
     const int type = in_.text_integer(), width = in_.text_integer();
     if (version != 2.2 && version != 4.1)
       in_.fail("the file has MSH format " + std::string(version == 4 ? "4.0" : std::to_string(version).substr(0, 3)) +
-               "; formats 2.2 and 4.1 are read (Gmsh: -format msh41).");
+               "; formats 2.2 and 4.1 are read (Gmsh: -format msh41)." + conversion());
     if (type != 0 && type != 1) in_.fail("the file type must be 0 (ASCII) or 1 (binary), not " + std::to_string(type) + ".");
     if (width != 8) in_.fail("numbers of " + std::to_string(width) + " bytes are not read, only of 8.");
     content_.version = version == 2.2 ? 2 : 4;
@@ -99,7 +124,11 @@ class Reader {
     const int n = in_.text_integer();
     for (int i = 0; i < n; ++i) {
       const int dim = in_.text_integer(), tag = in_.text_integer();
-      content_.names[{dim, tag}] = in_.quoted();
+      const std::string name = in_.quoted();
+      // A group without a name has one of its tag.
+      if (const std::string fault = fault_of_name(name); !fault.empty() && !name.empty())
+        in_.fail("the physical name \"" + printable(name) + "\" " + fault + ".");
+      content_.names[{dim, tag}] = name;
     }
   }
 
@@ -124,10 +153,16 @@ class Reader {
         for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) in_.real();
         std::vector<int> physical;
         const std::int64_t n = in_.count(in_.size(), "physical tags", 1);
-        for (std::int64_t k = 0; k < n; ++k) physical.push_back(std::abs(in_.integer()));
+        for (std::int64_t k = 0; k < n; ++k) physical.push_back(group_tag(in_.integer()));
         entity_groups_[{dim, tag}] = content_.groups.number(std::move(physical));
         if (dim > 0) skip_integers("bounding entities");
       }
+  }
+
+  /// The sign of a physical tag is the orientation in the group.
+  int group_tag(int tag) {
+    if (tag == std::numeric_limits<int>::min()) in_.fail("the physical tag " + std::to_string(tag) + " is out of range.");
+    return std::abs(tag);
   }
 
   void skip_integers(const char* what) {
@@ -152,13 +187,19 @@ class Reader {
     content_.nodes.push_back(x);
   }
 
-  void read_nodes_2() {
+  /// Parametric nodes: behind the coordinates come the dimension and the tag of the model's entity, and the node's parameters on curves and surfaces.
+  void read_nodes_2(bool parametric) {
     start_nodes();
     const std::int64_t n = in_.count(in_.text_integer(), "nodes", in_.binary ? 28 : 8);
     if (in_.binary) in_.skip_line_end();
     for (std::int64_t i = 0; i < n; ++i) {
       const int tag = in_.integer();
       add_node(tag, coordinates());
+      if (!parametric) continue;
+      const int dim = in_.integer();
+      if (dim < 0 || dim > 3) in_.fail("node " + std::to_string(tag) + " lies on an entity of dimension " + std::to_string(dim) + ".");
+      in_.integer();
+      for (int k = 0; k < dim && dim < 3; ++k) in_.real();
     }
   }
 
@@ -213,6 +254,7 @@ class Reader {
     cell.nodes.reserve(n);
     for (int i : type.permutation) cell.nodes.push_back(nodes[at(i)]);
     layer.groups.push_back(group);
+    layer.tags.push_back(tag);
   }
 
   void read_cells_2() {
@@ -223,7 +265,7 @@ class Reader {
       std::vector<int> physical;
       for (int k = 0; k < tag_count; ++k) {
         const int t = in_.integer();
-        if (k == 0 && t != 0) physical.push_back(std::abs(t));
+        if (k == 0 && t != 0) physical.push_back(group_tag(t));
       }
       add_cell(type, tag, content_.groups.number(std::move(physical)), [&] { return std::int64_t{in_.integer()}; });
     };

@@ -3,6 +3,7 @@
 /// What a Gmsh file says, before it becomes a mesh.
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -26,14 +27,16 @@ class GmshGroups {
   std::map<std::vector<int>, int> numbers_;
 };
 
-/// Cells of one dimension, each with the number of its set of physical tags.
+/// Cells of one dimension, each with the number of its set of physical tags, and its own tag.
 struct GmshLayer {
   std::vector<Cell> cells;
   std::vector<int> groups;
+  std::vector<std::int64_t> tags;
 };
 
 struct GmshContent {
-  int version = 0;  ///< 2 or 4
+  int version = 0;        ///< 2 or 4
+  bool periodic = false;  ///< has a section $Periodic
   std::vector<Vec3<double>> nodes;
   std::array<GmshLayer, 4> layers;                   ///< by dimension; nodes of cells are numbers into `nodes`, in our order
   std::map<std::pair<int, int>, std::string> names;  ///< of physical groups, by dimension and tag

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -11,6 +12,12 @@
 namespace karcher {
 
 GmshInput::GmshInput(std::string path) : path_(std::move(path)) {
+  std::error_code unknown;
+  const std::filesystem::file_status status = std::filesystem::status(path_, unknown);
+  if (std::filesystem::is_directory(status)) throw InputError("The mesh file \"" + path_ + "\" is a directory.");
+  // A device or a pipe has no end, or none that is known.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError("The mesh file \"" + path_ + "\" is no file but a device or a pipe.");
   std::ifstream file(path_, std::ios::binary | std::ios::ate);
   if (!file) throw InputError("Cannot open the mesh file \"" + path_ + "\".");
   const std::streamoff size = file.tellg();
@@ -18,6 +25,8 @@ GmshInput::GmshInput(std::string path) : path_(std::move(path)) {
   text_.resize(static_cast<std::size_t>(size));
   file.seekg(0);
   if (!file.read(text_.data(), size)) throw InputError("Cannot read the mesh file \"" + path_ + "\".");
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (text_.starts_with(mark)) position_ = mark.size();
 }
 
 void GmshInput::fail(const std::string& sentence) const {

@@ -10,9 +10,10 @@ namespace karcher {
 
 class GmshInput {
  public:
-  /// Reads the whole file. \throws InputError if it cannot be opened
+  /// Reads the whole file, without a byte order mark. \throws InputError if it cannot be opened or is no regular file
   explicit GmshInput(std::string path);
 
+  const std::string& path() const { return path_; }
   bool binary = false;
   /// Name of the section being read, for messages.
   std::string section;

@@ -76,7 +76,7 @@ class NearestInCell {
       all.push_back({{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])}});
     search({cell.kind, all});
   }
-  double distance2() const { return best_; }
+  /// A corner where every squared distance overflows.
   const Vec3<double>& xi() const { return xi_; }
 
  private:
@@ -162,6 +162,9 @@ Ball ball(const Mesh& mesh, const Cell& cell) {
   return b;
 }
 
+/// Of a vector whose squares may overflow.
+double length(const Vec3<double>& x) { return std::hypot(x[0], x[1], x[2]); }
+
 double diameter(const Mesh& mesh, const Cell& cell) {
   double d = 0;
   for (int i = 0; i < vertex_count(cell.kind); ++i)
@@ -176,7 +179,7 @@ Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& poi
   bound.reserve(region.cells.size());
   for (const Cell& c : region.cells) {
     const Ball b = ball(mesh, c);
-    bound.push_back(std::sqrt(norm2(b.centre - point)) - b.radius);
+    bound.push_back(length(b.centre - point) - b.radius);
   }
   std::vector<int> order(region.cells.size());
   std::iota(order.begin(), order.end(), 0);
@@ -187,8 +190,9 @@ Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& poi
     if (bound[at(c)] > best.distance + 1e-12 * best.cell_diameter) break;
     const Cell& cell = region.cells[at(c)];
     const NearestInCell found(mesh, cell, point);
-    const double distance = std::sqrt(found.distance2()), tie = 1e-12 * diameter(mesh, cell);
-    if (distance < best.distance - tie || (distance < best.distance + tie && c < best.cell)) best = {c, found.xi(), distance, diameter(mesh, cell)};
+    const double distance = length(geometry(mesh, cell, found.xi()).x - point), tie = 1e-12 * diameter(mesh, cell);
+    if (best.cell < 0 || distance < best.distance - tie || (distance < best.distance + tie && c < best.cell))
+      best = {c, found.xi(), distance, diameter(mesh, cell)};
   }
   return best;
 }
@@ -196,6 +200,8 @@ Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& poi
 Location locate(const Mesh& mesh, const Region& region, const Vec3<double>& point, double tolerance) {
   if (region.cells.empty()) throw InputError("The region \"" + region.name + "\" is empty, no point lies in it.");
   const auto text = [](const Vec3<double>& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); };
+  if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+    throw InputError("The point " + text(point) + " is not finite.");
   const Location found = nearest(mesh, region, point);
   const double scale = found.cell_diameter > 0 ? found.cell_diameter : 1e-6;
   if (found.distance <= tolerance * scale) return found;

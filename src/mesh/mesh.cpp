@@ -89,9 +89,16 @@ std::vector<Cell> sub_entities(std::vector<Cell> cells, int dim, int target) {
 
 }  // namespace
 
+int Mesh::order() const {
+  int highest = 1;
+  for (const Cell& c : cells) highest = std::max(highest, c.order);
+  return highest;
+}
+
 const Region& Mesh::region(const std::string& region_name) const {
   const auto it = regions.find(region_name);
   if (it != regions.end()) return it->second;
+  if (const auto reason = left_out.find(region_name); reason != left_out.end()) throw InputError(reason->second);
   std::vector<std::string> names;
   for (const auto& entry : regions) names.push_back(entry.first);
   throw InputError("There is no region \"" + region_name + "\" in the mesh. " + suggestion(region_name, names, "Regions"));

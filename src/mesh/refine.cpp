@@ -126,6 +126,8 @@ class Refiner {
   explicit Refiner(const Mesh& coarse) : coarse_(coarse), numbering_(4 * coarse.nodes.size()) {
     fine_.dim = coarse.dim;
     fine_.parametrisation = coarse.parametrisation;
+    fine_.left_out = coarse.left_out;
+    fine_.warnings = coarse.warnings;
   }
 
   std::vector<Cell> cells(const std::vector<Cell>& parents, std::vector<Child>& children) {

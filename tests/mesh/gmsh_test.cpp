@@ -1,6 +1,7 @@
 #include "karcher/mesh/gmsh.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -8,9 +9,11 @@
 
 #include "karcher/error.hpp"
 #include "karcher/mesh/generators.hpp"
+#include "karcher/mesh/refine.hpp"
 #include "mesh/contains.hpp"
 #include "mesh/measure.hpp"
 #include "mesh/msh_writer.hpp"
+#include "temporary_directory.hpp"
 
 namespace karcher {
 namespace {
@@ -205,9 +208,15 @@ TEST(Gmsh, RefusesDamagedNumbersWithTheirLine) {
   EXPECT_TRUE(contains(refusal(ascii(three_nodes, "1\n1 2 0 1 2 1\n")), "has the vertex at (0, 0, 0) twice"));
 }
 
-TEST(Gmsh, RefusesGroupsThatAreNoPartOfTheMesh) {
-  EXPECT_TRUE(contains(refusal(ascii("4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 5 5 5\n", "2\n1 2 0 1 2 3\n2 1 2 8 1 3 4\n")),
-                       "\"curve-8\" has a line that is not part of any surface cell"));
+TEST(Gmsh, GroupsThatAreNoPartOfTheMeshAreNoRegions) {
+  const File file(ascii("4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 5 5 5\n", "3\n1 2 0 1 2 3\n2 1 2 8 1 3 4\n3 1 2 9 1 1 2\n"));
+  for (const Mesh& mesh : {read_gmsh(file.path()), refine(read_gmsh(file.path())).mesh}) {
+    EXPECT_EQ(mesh.regions.size(), 2u);
+    EXPECT_NEAR(measure(mesh, mesh.region("curve-9").cells), 1, 1e-14);
+    ASSERT_EQ(mesh.warnings.size(), 1u);
+    EXPECT_TRUE(contains(mesh.warnings[0], file.path() + ": the physical group \"curve-8\" has a line that is not part of any surface cell"));
+    EXPECT_THROW(mesh.region("curve-8"), InputError);
+  }
 }
 
 TEST(Gmsh, RefusesTruncatedFilesAtEveryLength) {
@@ -221,6 +230,113 @@ TEST(Gmsh, RefusesTruncatedFilesAtEveryLength) {
         EXPECT_THROW(read_gmsh(file.path()), InputError) << "MSH " << version << (binary ? " binary" : " ASCII") << " cut at " << length;
       }
     }
+}
+
+/// The same with the lines counted.
+std::string msh22(const std::string& nodes, const std::string& cells) {
+  const auto counted = [](const std::string& lines) { return std::to_string(std::count(lines.begin(), lines.end(), '\n')) + "\n" + lines; };
+  return ascii(counted(nodes), counted(cells));
+}
+
+TEST(Gmsh, RefusesCellsThatAreFoldedOverThemselves) {
+  // The middle of the long edge is pushed into the triangle, to (a, a): the determinant is 1 + (4 a - 2) (x + y), negative on that edge for a < 1/4. The same in
+  // another plane, since nothing but the normal tells which side is up.
+  for (const bool upright : {false, true}) {
+    const auto triangle = [&](double a) {
+      const std::string p = std::to_string(a);
+      const auto node = [&](const std::string& x, const std::string& y) { return upright ? x + " 0 " + y + "\n" : x + " " + y + " 0\n"; };
+      return msh22("1 " + node("0", "0") + "2 " + node("1", "0") + "3 " + node("0", "1") + "4 " + node("0.5", "0") + "5 " + node(p, p) + "6 " +
+                       node("0", "0.5"),
+                   "7 9 2 1 1 1 2 3 4 5 6\n");
+    };
+    EXPECT_EQ(refusal(triangle(0.26)), "no error");
+    const std::string folded = refusal(triangle(0.24));
+    EXPECT_TRUE(contains(folded, "triangle 7 is folded over itself at (")) << folded;
+    EXPECT_TRUE(contains(folded, "area by reference area there is -0.04 and elsewhere up to 1.")) << folded;
+    EXPECT_TRUE(contains(folded, "Mesh.HighOrderOptimize = 2")) << folded;
+    EXPECT_TRUE(contains(refusal(triangle(0.1)), "triangle 7 is folded over itself at ("));  // it is 0 on a row of the points that are looked at
+  }
+  // A curve that turns back, a quadrilateral with a corner inside, a hexahedron with a corner pulled through.
+  EXPECT_TRUE(contains(refusal(msh22("1 0 0 0\n2 1 0 0\n3 1.2 0 0\n", "1 8 2 1 1 1 2 3\n")), "line 1 is folded over itself at (1, 0, 0)"));
+  EXPECT_TRUE(contains(refusal(msh22("1 0 0 0\n2 1 0 0\n3 0.3 0.3 0\n4 0 1 0\n", "4 3 2 1 1 1 2 3 4\n")),
+                       "quadrilateral 4 is folded over itself at (0.3, 0.3, 0)"));
+  const std::string cube = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n8 0 1 1\n";
+  EXPECT_TRUE(contains(refusal(msh22(cube + "7 0.2 0.2 0.2\n", "1 5 2 1 1 1 2 3 4 5 6 7 8\n")), "hexahedron 1 is folded over itself"));
+  EXPECT_EQ(refusal(msh22(cube + "7 0.8 0.8 0.8\n", "1 5 2 1 1 1 2 3 4 5 6 7 8\n")), "no error");
+}
+
+TEST(Gmsh, ACellMayBendByMoreThanARightAngleAndHaveStraightCorners) {
+  // Three quarters of a circle in one cubic line, half a cylinder in one quadrilateral; a corner of 180 degrees.
+  EXPECT_EQ(refusal(msh22("1 1 0 0\n2 0 -1 0\n3 0 1 0\n4 -1 0 0\n", "1 26 2 1 1 1 2 3 4\n")), "no error");
+  EXPECT_EQ(
+      refusal(msh22("1 1 0 0\n2 -1 0 0\n3 -1 0 1\n4 1 0 1\n5 0 1 0\n6 -1 0 0.5\n7 0 1 1\n8 1 0 0.5\n9 0 1 0.5\n", "1 10 2 1 1 1 2 3 4 5 6 7 8 9\n")),
+      "no error");
+  EXPECT_EQ(refusal(msh22("1 0 0 0\n2 1 0 0\n3 0.5 0.5 0\n4 0 1 0\n", "1 3 2 1 1 1 2 3 4\n")), "no error");
+  // Sides of a solid that the file lists the other way round are none the less solids.
+  EXPECT_EQ(refusal(msh22("1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", "1 4 2 1 1 1 3 2 4\n")), "no error");
+}
+
+TEST(Gmsh, ReadsParametricNodesAndFilesWithAByteOrderMark) {
+  // Behind the coordinates: dimension and tag of the model's entity, and as many parameters as curves and surfaces have.
+  const std::string parametric =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 2 0.25\n3 1 1 0 2 3 0.5 0.5\n4 0 1 0 3 "
+      "1\n$EndParametricNodes\n"
+      "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n";
+  EXPECT_NEAR(measure(read_gmsh(File(parametric).path())), 1, 1e-14);
+  EXPECT_NEAR(measure(read_gmsh(File("\xEF\xBB\xBF" + parametric).path())), 1, 1e-14);
+  std::string binary = "$MeshFormat\n2.2 1 8\n";
+  const auto put = [&](auto x) { binary.append(reinterpret_cast<const char*>(&x), sizeof x); };
+  put(1);
+  binary += "\n$EndMeshFormat\n$ParametricNodes\n4\n";
+  for (const int node : {1, 2, 3, 4}) {
+    put(node);
+    for (const double x : {node == 2 || node == 3 ? 1.0 : 0.0, node > 2 ? 1.0 : 0.0, 0.0}) put(x);
+    for (const int i : {node - 1, 7}) put(i);
+    for (int k = 0; k < node - 1 && node < 4; ++k) put(0.5);
+  }
+  binary += "\n$EndParametricNodes\n$Elements\n1\n";
+  for (const int i : {3, 1, 2, 5, 1, 1, 1, 2, 3, 4}) put(i);
+  EXPECT_NEAR(measure(read_gmsh(File(binary + "\n$EndElements\n").path())), 1, 1e-14);
+  EXPECT_TRUE(contains(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n1\n1 0 0 0 4 1\n$EndParametricNodes\n"),
+                       ":6, section $ParametricNodes: node 1 lies on an entity of dimension 4."));
+}
+
+TEST(Gmsh, FilesOfOtherProgramsAreRefusedWithTheCommandThatConvertsThem) {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& name, const std::string& content = "other\n") {
+    std::ofstream(directory / name) << content;
+    try {
+      read_gmsh((directory / name).string());
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(contains(told("part.step"), "gmsh -2 -order 2 -format msh41 -o part.msh part.step"));
+  EXPECT_TRUE(contains(told("part.UNV"), "gmsh -save -format msh41 -o part.msh part.UNV"));
+  EXPECT_TRUE(contains(told("part.vtu"), "meshio convert --output-format gmsh part.vtu part.msh"));
+  EXPECT_TRUE(contains(told("part.msh", "$MeshFormat\n4 0 8\n$EndMeshFormat\n"), "gmsh -save -format msh41 -o part-41.msh part.msh"));
+  EXPECT_TRUE(contains(told("part.msh", "$NOD\n0\n$ENDNOD\n"), "gmsh -save -format msh41 -o part-41.msh part.msh"));
+}
+
+TEST(Gmsh, RefusesDirectoriesDevicesAndPipesAtOnce) {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& name) {
+    try {
+      read_gmsh(name);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(contains(told(directory.path().string()), "is a directory."));
+  EXPECT_TRUE(contains(told("/dev/zero"), "is no file but a device or a pipe."));
+  ASSERT_EQ(mkfifo((directory / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(contains(told((directory / "pipe").string()), "is no file but a device or a pipe."));
+}
+
+TEST(Gmsh, RefusesAPhysicalTagThatHasNoAbsoluteValue) {
+  EXPECT_TRUE(contains(refusal(ascii(three_nodes, "1\n1 2 2 -2147483648 1 1 2 3\n")), "the physical tag -2147483648 is out of range."));
 }
 
 }  // namespace

@@ -73,5 +73,22 @@ TEST(Locate, RefusesPointsOutsideWithDistanceAndPlace) {
   EXPECT_THROW(locate(mesh, {"none", 2, {}}, {{0, 0, 0}}), InputError);
 }
 
+TEST(Locate, RefusesPointsWhoseSquaredDistanceOverflowsAndPointsThatAreNotFinite) {
+  const Mesh mesh = generate({"box", {{"cells", {2, 2, 2}}}, {}});
+  const auto told = [&](const Vec3<double>& x) {
+    try {
+      locate(mesh, mesh.region("all"), x);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(told({{0, 1e155, 0}}).find("at a distance of 1e+155."), std::string::npos) << told({{0, 1e155, 0}});
+  EXPECT_NE(told({{0, 1e308, 0}}).find("at a distance of 1e+308."), std::string::npos) << told({{0, 1e308, 0}});
+  EXPECT_EQ(told({{std::nan(""), 0, 0}}), "The point (nan, 0, 0) is not finite.");
+  const double far = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(told({{0, far, 0}}), "The point (0, inf, 0) is not finite.");
+}
+
 }  // namespace
 }  // namespace karcher

@@ -19,7 +19,8 @@ struct Location {
 Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& point);
 
 /// The nearest place, which must be near: a probe is a point of the exact surface, from which a mesh of straight cells differs.
-/// \param tolerance  largest distance in diameters of the nearest cell \throws InputError with the distance and the nearest place if it is farther
+/// \param tolerance  largest distance in diameters of the nearest cell \throws InputError with the distance and the nearest place if it is farther or the
+/// point is not finite
 Location locate(const Mesh& mesh, const Region& region, const Vec3<double>& point, double tolerance = 0.1);
 
 }  // namespace karcher

@@ -35,8 +35,13 @@ struct Mesh {
   std::map<std::string, Region> regions;  ///< physical groups and predicate regions; "all" is always there and equals `cells`
   /// Exact geometry of generated meshes: maps parameters to R^3, so that refinement lands on the exact surface. Empty for read meshes.
   std::function<Vec3<double>(const Vec3<double>&)> parametrisation;
+  /// Groups of a file that are no regions of this mesh, each with the reason.
+  std::map<std::string, std::string> left_out;
+  std::vector<std::string> warnings;  ///< sentences about what a file has and the mesh has not
 
-  /// \throws InputError naming the known regions and the nearest name.
+  /// Highest geometry order of a cell.
+  int order() const;
+  /// \throws InputError naming the known regions and the nearest name, or the reason why it was left out.
   const Region& region(const std::string& name) const;
 };
 

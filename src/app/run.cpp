@@ -87,6 +87,7 @@ int run(const RunOptions& options) {
     results.resume(checkpoint);
   else
     results.begin(u);
+  if (table && !results.replaced().empty()) table->line(results.replaced());
   std::unique_ptr<IterationsCsv> iterations;
   together([&] {
     if (talks) iterations = std::make_unique<IterationsCsv>(results.directory() / "iterations.csv", options.resume ? finished + 1 : 0);
@@ -99,6 +100,7 @@ int run(const RunOptions& options) {
   const ContinuationReport report = run_continuation(*model.functional, u, boundary_values(model), loads, problem.solver, listeners, start);
 
   results.finish(report.status, outcome(report, finished, last));
+  if (!results.page_trouble().empty()) fmt::print(stderr, "warning: there is no page: {} karcher view makes it.\n", results.page_trouble());
   table.reset();
   if (talks && !options.quiet) {
     fmt::print("{}", final_report(results.summary()));

@@ -53,7 +53,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
   file.keep = true;
 }
 
-std::string read_whole(const std::filesystem::path& path) {
+std::string read_whole(const std::filesystem::path& path, std::size_t most) {
   const auto refuse_reading = [&] { return InputError(fmt::format("The file {} cannot be read: {}.", path.string(), std::strerror(errno))); };
   errno = 0;
   std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -61,12 +61,13 @@ std::string read_whole(const std::filesystem::path& path) {
   std::string content;
   char buffer[1 << 16];
   std::size_t got = 0;
-  while ((got = std::fread(buffer, 1, sizeof buffer, file)) > 0) content.append(buffer, got);
+  while (content.size() <= most && (got = std::fread(buffer, 1, sizeof buffer, file)) > 0) content.append(buffer, got);
   const bool bad = std::ferror(file) != 0;
   const int error = errno;
   std::fclose(file);
   errno = error;
   if (bad) throw refuse_reading();
+  if (content.size() > most) throw InputError(fmt::format("The file {} has more than {} bytes.", path.string(), most));
   return content;
 }
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "karcher/interpolation/evaluate.hpp"
 #include "karcher/io/summary.hpp"
+#include "karcher/mesh/orientation.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 
@@ -51,6 +54,19 @@ struct NodeOfCell {
   int cell = -1, local = 0;
 };
 
+const std::vector<std::string> xyz{"x", "y", "z"};
+
+/// Of an array of points, or of vectors, in space; of quaternions.
+std::vector<std::string> component_names(int components, bool body_axes = false) {
+  if (body_axes && components == 4) return {"w", "x", "y", "z"};
+  return components == 2 || components == 3 ? std::vector<std::string>(xyz.begin(), xyz.begin() + components) : std::vector<std::string>();
+}
+
+/// Whether the files have the columns d_1, d_2, d_3 of the rotation that a point is.
+bool has_directors(const ManifoldOps& m) {
+  return m.drawing.directors && m.arrays.size() == 3 && std::ranges::all_of(m.arrays, [](const Quantity& q) { return q.components == 3; });
+}
+
 bool has_array(const Field& field, const std::string& name) {
   return std::ranges::any_of(field.manifold->arrays, [&](const Quantity& q) { return q.name == name; });
 }
@@ -68,6 +84,7 @@ struct OutputSampler::Part {
   std::vector<Carried> fields;
   std::vector<NodeOfCell> place;
   std::vector<Vec3<double>> reference;
+  std::vector<Vec3<double>> normals;  ///< of the stress-free surface, where a field turns them
   std::vector<double> measure;
   std::vector<OutputCell> cells;
 };
@@ -123,16 +140,27 @@ OutputSampler::OutputSampler(OutputModel model) : model_(std::move(model)) {
     part->space = std::make_unique<Space>(model_.fields[f].space->mesh_ptr(), region, p);
 
     const Mesh& mesh = part->space->mesh();
+    const bool turned = std::ranges::any_of(
+        part->fields, [&](const Part::Carried& c) { return has_directors(*model_.fields[static_cast<std::size_t>(c.field)].manifold); });
+    std::optional<Orientation> orientation;
+    if (turned && region.dim == 2) orientation.emplace(mesh, region);
     const ReferenceGeometry reference(mesh, model_.reference_position, model_.reference_order);
     const auto nodes = static_cast<std::size_t>(part->space->node_count());
     part->place.resize(nodes);
     part->reference.resize(nodes);
+    if (orientation) part->normals.resize(nodes);
     for (std::size_t c = 0; c < region.cells.size(); ++c) {
       const Cell& cell = region.cells[c];
       const std::vector<int>& on_cell = part->space->cell_nodes(static_cast<int>(c));
       const std::vector<GeometryJet> jets = reference.at(cell, lagrange_nodes(cell.kind, p));
       for (std::size_t k = 0; k < on_cell.size(); ++k) {
         const auto n = static_cast<std::size_t>(on_cell[k]);
+        const Vec3<double> own = cross(jets[k].d[0], jets[k].d[1]);
+        if (orientation && norm2(own) > 0) {
+          const Vec3<double> normal = (orientation->sign(cell) / std::sqrt(norm2(own))) * own;
+          // On a surface of one side the cells at a node need not agree.
+          part->normals[n] += dot(normal, part->normals[n]) < 0 ? -normal : normal;
+        }
         if (part->place[n].cell >= 0) continue;
         part->place[n] = {static_cast<int>(c), static_cast<int>(k)};
         part->reference[n] = jets[k].x;
@@ -140,6 +168,7 @@ OutputSampler::OutputSampler(OutputModel model) : model_(std::move(model)) {
       part->measure.push_back(measure_of(reference, cell));
       part->cells.push_back({cell.kind, on_cell});
     }
+    for (Vec3<double>& n : part->normals) n = (1 / std::sqrt(norm2(n))) * n;
     parts_.push_back(std::move(part));
   }
 }
@@ -280,17 +309,28 @@ std::vector<OutputPart> OutputSampler::sample(const Configuration& u, std::span<
             displacement.push_back(m[i] - part->reference[n][i]);
           }
         }
-        o.point_data.push_back({"displacement", 3, std::move(displacement)});
-        o.point_data.push_back({"reference", 3, std::move(reference)});
+        o.point_data.push_back({"displacement", 3, std::move(displacement), xyz});
+        o.point_data.push_back({"reference", 3, std::move(reference), xyz});
       }
       for (const Quantity& q : field.manifold->arrays) {
         const auto size = static_cast<std::size_t>(q.components);
         std::vector<double> numbers(size * nodes);
         for (std::size_t n = 0; n < nodes; ++n) q.value(&values[n * static_cast<std::size_t>(ambient)], &numbers[n * size]);
         const auto fields = std::ranges::count_if(model_.fields, [&](const Field& f) { return has_array(f, q.name); });
-        o.point_data.push_back({(fields > 1 ? field.name + "." : std::string()) + q.name, q.components, std::move(numbers)});
+        o.point_data.push_back(
+            {(fields > 1 ? field.name + "." : std::string()) + q.name, q.components, std::move(numbers), component_names(q.components)});
       }
-      o.point_data.push_back({field.name, ambient, std::move(values)});
+      if (!part->normals.empty() && has_directors(*field.manifold)) {
+        const std::size_t first = o.point_data.size() - 3;
+        std::vector<double> normal(3 * nodes, 0.0);
+        for (std::size_t n = 0; n < nodes; ++n)
+          for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 3; ++i)
+              normal[3 * n + i] += o.point_data[first + k].values[3 * n + i] * part->normals[n][static_cast<int>(k)];
+        const auto fields = std::ranges::count_if(model_.fields, [](const Field& f) { return has_directors(*f.manifold); });
+        o.point_data.push_back({(fields > 1 ? field.name + "." : std::string()) + "normal", 3, std::move(normal), xyz, false});
+      }
+      o.point_data.push_back({field.name, ambient, std::move(values), component_names(ambient, field.manifold->body_axes)});
     }
 
     if (!energies.empty())

@@ -43,10 +43,12 @@ const OutputArray* find(const std::vector<OutputArray>& arrays, const char* name
   return nullptr;
 }
 
+bool is_stored(const OutputArray& a) { return a.drawn && a.name != "displacement" && a.name != "reference"; }
+
 json list_of(const std::vector<OutputArray>& arrays) {
   json out = json::array();
   for (const OutputArray& a : arrays)
-    if (a.name != "displacement" && a.name != "reference") out.push_back({{"name", a.name}, {"components", a.components}});
+    if (is_stored(a)) out.push_back({{"name", a.name}, {"components", a.components}});
   return out;
 }
 
@@ -288,7 +290,7 @@ void PageStates::write(int state, double t, const std::vector<OutputPart>& parts
     if (const OutputArray* displacement = find(p.point_data, "displacement")) put_floats(numbers, displacement->values);
     for (const auto* arrays : {&p.point_data, &p.cell_data})
       for (const OutputArray& a : *arrays)
-        if (a.name != "displacement" && a.name != "reference") put_floats(numbers, a.values);
+        if (is_stored(a)) put_floats(numbers, a.values);
   }
   json named = json::object();
   for (const auto& [name, value] : energies) named[name] = value;

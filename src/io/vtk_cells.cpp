@@ -34,8 +34,9 @@ void append_square(std::vector<Place>& places, const Place& corner, const Place&
     }
 }
 
-/// Points in the order of vtkLagrangeCurve, Triangle, Quadrilateral, Tetra and Hexahedron (VTK 9.1 and later; files of version 2.1 and up). Unlike ours, VTK's
-/// third and fourth edge of a square run in +xi and +eta direction; its hexahedron numbers faces by their normals -x, +x, -y, +y, -z, +z.
+/// Points in the order of vtkLagrangeCurve, Triangle, Quadrilateral, Tetra and Hexahedron in files of version 1.0 (VTK 9.1 and later order the last two edges of a
+/// hexahedron otherwise, and read files below version 2.1 in this order). Unlike ours, VTK's third and fourth edge of a square run in +xi and +eta direction; its
+/// hexahedron numbers faces by their normals -x, +x, -y, +y, -z, +z.
 std::vector<Place> vtk_places(CellKind kind, int p) {
   std::vector<Place> places;
   switch (kind) {
@@ -62,7 +63,7 @@ std::vector<Place> vtk_places(CellKind kind, int p) {
       return places;
     case CellKind::hexahedron:
       places = {{0, 0, 0}, {p, 0, 0}, {p, p, 0}, {0, p, 0}, {0, 0, p}, {p, 0, p}, {p, p, p}, {0, p, p}};
-      append_edges(places, {{0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}, p);
+      append_edges(places, {{0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {3, 7}, {2, 6}}, p);
       for (const int x : {0, p}) append_square(places, {x, 0, 0}, {0, 1, 0}, {0, 0, 1}, p);
       for (const int y : {0, p}) append_square(places, {0, y, 0}, {1, 0, 0}, {0, 0, 1}, p);
       for (const int z : {0, p}) append_square(places, {0, 0, z}, {1, 0, 0}, {0, 1, 0}, p);

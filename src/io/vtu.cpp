@@ -57,7 +57,11 @@ void append_array(std::string& out, std::string_view name, int components, std::
 
 void append_data(std::string& out, std::string_view tag, const std::vector<OutputArray>& arrays) {
   out += fmt::format("      <{}>\n", tag);
-  for (const OutputArray& a : arrays) append_array<double>(out, a.name, a.components, a.values);
+  for (const OutputArray& a : arrays) {
+    std::string names;
+    for (std::size_t i = 0; i < a.component_names.size(); ++i) names += fmt::format(" ComponentName{}=\"{}\"", i, escaped(a.component_names[i]));
+    append_array<double>(out, a.name, a.components, a.values, names);
+  }
   out += fmt::format("      </{}>\n", tag);
 }
 
@@ -69,6 +73,12 @@ std::string file_name_of(std::string_view name) {
 }
 
 }  // namespace
+
+void remove_state(const std::filesystem::path& directory, const VtuEntry& entry) {
+  std::error_code ignored;
+  if (std::filesystem::path(entry.file).filename() == entry.file && entry.file.ends_with(".vtu"))
+    std::filesystem::remove(directory / entry.file, ignored);
+}
 
 void write_vtu(const std::filesystem::path& file, const OutputPart& part, double t) {
   std::vector<std::int64_t> connectivity, offsets;
@@ -82,10 +92,10 @@ void write_vtu(const std::filesystem::path& file, const OutputPart& part, double
   points.reserve(3 * part.points.size());
   for (const Vec3<double>& x : part.points) points.insert(points.end(), {x[0], x[1], x[2]});
 
-  // Version 2.2 is what VTK 9.1 writes; from 2.1 on the nodes of hexahedra are in the order of vtk_cells.cpp.
+  // Version 1.0 is the lowest with 64-bit headers, and the highest that meshio reads; before 2.1 the nodes of hexahedra are in the order of vtk_cells.cpp.
   std::string s =
       "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"2.2\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
       "  <UnstructuredGrid>\n    <FieldData>\n";
   append_array<double>(s, "TimeValue", 1, std::span(&t, 1), " NumberOfTuples=\"1\"");
   s += fmt::format("    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", part.points.size(), part.cells.size());
@@ -108,7 +118,10 @@ void VtuSeries::resume(int first_state) {
   const std::filesystem::path collection = directory_ / (stem_ + ".pvd");
   if (!std::filesystem::exists(collection)) return;
   entries_ = read_collection(collection);
-  std::erase_if(entries_, [&](const VtuEntry& e) { return e.state >= first_state; });
+  std::erase_if(entries_, [&](const VtuEntry& e) {
+    if (e.state >= first_state) remove_state(directory_, e);
+    return e.state >= first_state || !std::filesystem::exists(directory_ / e.file);
+  });
 }
 
 void VtuSeries::write(int state, double t, const std::vector<OutputPart>& parts) {

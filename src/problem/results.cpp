@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/io/earlier_results.hpp"
 #include "karcher/problem/discretisation_error.hpp"
 #include "karcher/problem/probes.hpp"
 #include "karcher/solve/collectives.hpp"
@@ -40,8 +41,7 @@ Results::Results(const Problem& problem, const DiscreteProblem& model, std::uint
   summary_.version = version_string;
   summary_.mesh.cells = static_cast<long>(mesh.cells.size());
   summary_.mesh.nodes = static_cast<long>(mesh.nodes.size());
-  summary_.mesh.order = 1;
-  for (const Cell& c : mesh.cells) summary_.mesh.order = std::max(summary_.mesh.order, c.order);
+  summary_.mesh.order = mesh.order();
   for (const Field& f : model.fields()) summary_.unknowns += static_cast<long>(f.space->node_count()) * f.manifold->dim;
   summary_.free_unknowns = model.layout->free_dofs();
   summary_.ranks = model.layout->ranks();
@@ -52,17 +52,17 @@ void Results::begin(const Configuration& initial) {
   const double begin = seconds_now();
   together([&] {
     if (!writer_) return;
-    std::error_code code;
-    std::filesystem::create_directories(directory(), code);
-    if (code) throw Error("The directory " + directory().string() + " cannot be made: " + code.message() + ".");
-    // What an earlier run left would be taken for this one's.
-    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(directory() / stale, code);
+    lock_.emplace(directory());
+    replaced_ = remove_earlier_results(directory());
     if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
+    probes_.emplace(directory() / "probes.csv", summary_.load_steps);
     if (problem_.output.vtu) vtu_.emplace(directory());
     if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_));
-    write_checkpoint(checkpoint_file(), {.configuration = initial, .summary = to_json(summary_)}, model_.fields(), identity_);
   });
   write_state(0, initial, true);
+  together([&] {
+    if (writer_) write_checkpoint(checkpoint_file(), {.configuration = initial, .summary = to_json(summary_)}, model_.fields(), identity_);
+  });
   summary_.seconds.output += seconds_now() - begin;
 }
 
@@ -80,7 +80,10 @@ void Results::resume(const Checkpoint& checkpoint) {
     summary_.seconds.setup += setup;
     earlier_seconds_ = earlier.seconds.total;
     if (!writer_) return;
+    lock_.emplace(directory());
+    remove_unfinished_files(directory());
     if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
+    probes_.emplace(directory() / "probes.csv", summary_.load_steps);
     if (problem_.output.vtu) {
       vtu_.emplace(directory());
       vtu_->resume(checkpoint.load_step + 1);
@@ -152,6 +155,7 @@ void Results::load_step_finished(const StepReport& report, const Configuration& 
   together([&] {
     if (!writer_) return;
     write_summary(directory() / "summary.json", summary_);
+    probes_->add(report.load_step, step);
     if (report.status == Status::converged) {
       const Checkpoint checkpoint{report.load_step, report.next_increment, report.largest_gradient, u, to_json(summary_)};
       write_checkpoint(checkpoint_file(), checkpoint, model_.fields(), identity_);
@@ -169,7 +173,12 @@ void Results::finish(Status status, const std::string& reason) {
     if (!writer_) return;
     write_summary(directory() / "summary.json", summary_);
     if (!problem_.output.report) return;
-    write_page(directory());
+    // The results are whole without it, and `karcher view` makes it again.
+    try {
+      write_page(directory());
+    } catch (const std::exception& error) {
+      page_trouble_ = error.what();
+    }
     summary_.seconds.output += seconds_now() - begin;
     update_times();
     write_summary(directory() / "summary.json", summary_);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/judge.hpp"
+#include "karcher/io/directory_lock.hpp"
 #include "karcher/version.hpp"
 #include "program_runner.hpp"
 
@@ -112,8 +113,9 @@ TEST(Run, VtkReadsTheFilesOfAnyNumberOfRanks) {
       EXPECT_EQ(vtu["time"], json({0.5 * static_cast<double>(k)}));
       EXPECT_EQ(vtu["points"], 45);
       EXPECT_EQ(vtu["cells"], json({{"69", {{"count", 16}, {"nodes", {6}}}}}));
-      EXPECT_EQ(vtu["point_data"],
-                json({{"m", 3}, {"displacement", 3}, {"reference", 3}, {"Q", 4}, {"director1", 3}, {"director2", 3}, {"director3", 3}}));
+      EXPECT_EQ(
+          vtu["point_data"],
+          json({{"m", 3}, {"displacement", 3}, {"reference", 3}, {"Q", 4}, {"director1", 3}, {"director2", 3}, {"director3", 3}, {"normal", 3}}));
       for (const char* name : {"energy_density.cosserat-shell", "energy_density.cosserat-shell.membrane", "energy_density.cosserat-shell.bending",
                                "energy_density.cosserat-shell.curvature"})
         EXPECT_EQ(vtu["cell_data"].value(name, 0), 1) << name;
@@ -643,6 +645,44 @@ TEST(New, CopiesAnExampleWithItsFilesAndOverwritesNothing) {
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("Did you mean \"cantilever\"?"), std::string::npos) << o.err;
   EXPECT_FALSE(std::filesystem::exists(shop.directory() / "other"));
+}
+
+TEST(Run, OneRunAtATimeHasTheDirectoryAndTheNextSaysWhatItReplaces) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  {
+    const DirectoryLock lock(shop.directory() / "strip");
+    const auto before = shop.files();
+    for (const char* arguments : {"run strip.toml", "run strip.toml -n 2"}) {
+      const Outcome o = shop.karcher(arguments);
+      EXPECT_EQ(o.code, 2) << o.err;
+      EXPECT_NE(o.err.find("(process " + std::to_string(::getpid()) + ", since "), std::string::npos) << o.err;
+      EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+      EXPECT_EQ(shop.files(), before);
+    }
+  }
+  ASSERT_EQ(shop.karcher("run strip.toml").code, 0);
+  const auto first = shop.files();
+  EXPECT_TRUE(first.contains("strip/solution_0002.vtu"));
+  EXPECT_FALSE(first.contains("strip/.lock"));
+  shop.write("strip/.solution_0002.vtu.77.part", "half");
+  const Outcome again = shop.karcher("run strip.toml --set continuation.steps=1");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("replaces the results of an earlier run"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("converged, 2 load steps)"), std::string::npos) << again.out;
+  auto expected = first;
+  expected.erase("strip/solution_0002.vtu");
+  EXPECT_EQ(shop.files(), expected);
+}
+
+TEST(Run, APageThatFailsIsAWarning) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  std::filesystem::create_directories(shop.directory() / "strip/report.html/in the way");
+  const Outcome o = shop.karcher("run strip.toml");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("warning: there is no page: "), std::string::npos) << o.err;
+  EXPECT_EQ(summary(shop, "strip")["status"], "converged");
 }
 
 }  // namespace

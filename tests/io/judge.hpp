@@ -21,7 +21,8 @@ inline nlohmann::json judge(const std::vector<std::filesystem::path>& files, boo
   char buffer[4096];
   std::size_t got = 0;
   while ((got = std::fread(buffer, 1, sizeof buffer, pipe)) > 0) text.append(buffer, got);
-  if (::pclose(pipe) != 0) throw std::runtime_error("The judge of VTU files refuses (it needs the Debian package python3-vtk9): " + text);
+  if (::pclose(pipe) != 0)
+    throw std::runtime_error("The judge of VTU files refuses (it needs the Debian packages python3-vtk9 and python3-meshio): " + text);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return nlohmann::json::parse(text.substr(text.rfind('\n') + 1));
 }

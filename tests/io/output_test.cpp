@@ -112,12 +112,12 @@ TEST(Output, ARotationIsToldByItsQuaternionAndItsDirectors) {
   const double angle = 0.7;
   const auto parts = OutputSampler({.fields = {q}}).sample({{nodal(q, [&](const Vec3<double>&) { return rotation_about_e3(angle); })}, 0});
   const auto& data = parts[0].point_data;
-  EXPECT_EQ(names(data), (std::vector<std::string>{"director1", "director2", "director3", "Q"}));
+  EXPECT_EQ(names(data), (std::vector<std::string>{"director1", "director2", "director3", "normal", "Q"}));
   const double expected[3][3] = {{std::cos(angle), std::sin(angle), 0}, {-std::sin(angle), std::cos(angle), 0}, {0, 0, 1}};
   for (std::size_t n = 0; n < parts[0].points.size(); ++n) {
     for (std::size_t k = 0; k < 3; ++k)
       for (int i = 0; i < 3; ++i) EXPECT_NEAR(at(data[k], n, i), expected[k][i], 1e-15);
-    EXPECT_EQ(at(data[3], n, 0), std::cos(angle / 2));
+    EXPECT_EQ(at(data[4], n, 0), std::cos(angle / 2));
   }
 }
 
@@ -182,7 +182,8 @@ TEST(Output, AFilmOnASolidIsAPartOfItsOwnThatMovesWithTheSolid) {
   EXPECT_EQ(parts[1].dim, 2);
   EXPECT_EQ(parts[1].order, 2);
   EXPECT_EQ(parts[1].cells.size(), 2U);
-  EXPECT_EQ(names(parts[1].point_data), (std::vector<std::string>{"director1", "director2", "director3", "Q", "displacement", "reference", "m"}));
+  EXPECT_EQ(names(parts[1].point_data),
+            (std::vector<std::string>{"director1", "director2", "director3", "normal", "Q", "displacement", "reference", "m"}));
   for (const auto& x : parts[1].points) EXPECT_NEAR(x[2], 1.5, 1e-15);
 
   const TemporaryDirectory directory;
@@ -386,6 +387,39 @@ TEST(Output, VtkIntegratesTheFieldsOfEveryKindOfCell) {
     EXPECT_NEAR(facts[i]["integrals"]["u"][0].get<double>(), 1 / (p + 1), 1e-14) << files[i];
     EXPECT_NEAR(facts[i]["integrals"]["u"][1].get<double>(), 1 / (p + 1), 1e-14) << files[i];
   }
+}
+
+TEST(Output, TheNormalOfAShellIsThatOfItsReferenceTurned) {
+  // A cylinder, whose normals point outwards, turned by Q = exp(0.7 [e_3]); its director d_3 = e_3 is tangent.
+  const double angle = 0.7;
+  const auto turned = [&](const Vec3<double>&) { return rotation_about_e3(angle); };
+  for (const double order : {1.0, 2.0, 3.0}) {
+    const auto mesh = generated("cylinder", {{"cells", {16, 4}}, {"order", {order}}});
+    const Field q = field_on(mesh, mesh->region("all"), "Q", "SO3", static_cast<int>(order));
+    const auto part = OutputSampler({.fields = {q}}).sample({{nodal(q, turned)}, 0})[0];
+    const auto& normal = array(part.point_data, "normal");
+    const double side = at(normal, 0, 0) * std::cos(angle) + at(normal, 0, 1) * std::sin(angle) < 0 ? -1 : 1;
+    for (std::size_t n = 0; n < part.points.size(); ++n) {
+      const double phi = std::atan2(part.points[n][1], part.points[n][0]) + angle;
+      EXPECT_NEAR(side * at(normal, n, 0), std::cos(phi), order == 1 ? 0.2 : 2e-2);
+      EXPECT_NEAR(side * at(normal, n, 1), std::sin(phi), order == 1 ? 0.2 : 2e-2);
+      EXPECT_NEAR(std::hypot(at(normal, n, 0), at(normal, n, 1), at(normal, n, 2)), 1, 1e-14);
+    }
+    EXPECT_FALSE(normal.drawn);
+    EXPECT_EQ(normal.component_names, (std::vector<std::string>{"x", "y", "z"}));
+    EXPECT_EQ(array(part.point_data, "Q").component_names, (std::vector<std::string>{"w", "x", "y", "z"}));
+  }
+  // On a Moebius strip, which has one side, every normal has length 1 and is perpendicular to the strip all the same.
+  const auto strip = generated("moebius", {{"cells", {24, 4}}, {"order", {3}}});
+  const Field q = field_on(strip, strip->region("all"), "Q", "SO3", 1);
+  const auto part = OutputSampler({.fields = {q}}).sample({{nodal(q, [](const Vec3<double>&) { return rotation_about_e3(0); })}, 0})[0];
+  const auto& normal = array(part.point_data, "normal");
+  for (std::size_t n = 0; n < part.points.size(); ++n) EXPECT_NEAR(std::hypot(at(normal, n, 0), at(normal, n, 1), at(normal, n, 2)), 1, 1e-14);
+  // A solid and a curve have none.
+  const auto box = generated("box", {{"cells", {1, 1, 1}}});
+  const Field solid = field_on(box, box->region("all"), "Q", "SO3", 1);
+  EXPECT_EQ(names(OutputSampler({.fields = {solid}}).sample({{nodal(solid, turned)}, 0})[0].point_data),
+            (std::vector<std::string>{"director1", "director2", "director3", "Q"}));
 }
 
 }  // namespace

@@ -119,6 +119,7 @@ TEST(Vtu, VtkIntegratesOverEveryKindAndOrderOfCellWhatTheNodesSay) {
       const Bend bend{p, dimension(kind), 0};
       const std::string dim = std::to_string(dimension(kind)), type = std::to_string(vtk_cell_type(kind));
       EXPECT_EQ(facts[f]["cells"][type]["count"], 1);
+      EXPECT_EQ(facts[f]["meshio"], nlohmann::json({{"points", node_count(kind, p)}, {"cells", 1}, {"arrays", {"u"}}, {"same", true}}));
       EXPECT_EQ(facts[f]["cells"][type]["nodes"], nlohmann::json({node_count(kind, p)}));
       const auto det = [&](const Vec3<double>& xi) { return std::abs(bend.determinant(xi)); };
       EXPECT_LT(relative(facts[f]["measure"][dim], integrate(kind, det)), 1e-12);

@@ -6,7 +6,8 @@
 /// part of its own. A part has every field that lives on all of its entities. The order is the highest of the part's fields and geometry.
 ///
 /// Point data of a field u: the ambient coordinates under the field's name, and before them ManifoldOps::arrays under their names ("<field>.<name>" if several fields
-/// have one): of SO(3) the columns d_1, d_2, d_3 of the rotation as "director1..3".
+/// have one): of SO(3) the columns d_1, d_2, d_3 of the rotation as "director1..3", and on surfaces "normal" = Q n_0, where Q carries the normal n_0 of the
+/// stress-free configuration (the mean over the cells at a node; its side is that of Orientation, where there is one).
 /// With a deformation m (R^n, n <= 3): points are m itself, "reference" is the place in the stress-free configuration, "displacement" = m - reference.
 /// Cell data: "energy_density.<term>" = energy of the term on the cell / reference measure of the cell (length, area, volume), for every term on the part,
 /// and "energy_density.<term>.<part>" for the parts that a term tells apart. The quantities of a term are means over the cells: "charge" of the term T is "charge.T",
@@ -27,7 +28,9 @@ namespace karcher {
 struct OutputArray {
   std::string name;
   int components = 1;
-  std::vector<double> values;  ///< [node or cell][component]
+  std::vector<double> values;                  ///< [node or cell][component]
+  std::vector<std::string> component_names{};  ///< "x", "y", "z"; may be empty
+  bool drawn = true;                           ///< whether pages have it
 };
 
 struct OutputCell {

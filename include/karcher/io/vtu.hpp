@@ -29,6 +29,9 @@ struct VtuEntry {
   std::string file;    ///< relative to the collection
 };
 
+/// Removes the file of an entry, unless the collection names one in another directory.
+void remove_state(const std::filesystem::path& directory, const VtuEntry& entry);
+
 /// What a .pvd written by VtuSeries lists, in the order of states and parts. \throws InputError if it is missing or was not written by VtuSeries.
 std::vector<VtuEntry> read_collection(const std::filesystem::path& file);
 
@@ -36,7 +39,8 @@ std::vector<VtuEntry> read_collection(const std::filesystem::path& file);
 class VtuSeries {
  public:
   explicit VtuSeries(std::filesystem::path directory, const std::string& stem = "solution");
-  /// Continues the collection of an interrupted run: keeps its entries of states before `first_state`. \throws InputError if the .pvd is not ours.
+  /// Continues the collection of an interrupted run: keeps its entries of states before `first_state` whose files are there, and removes the
+  /// files of later ones. \throws InputError if the .pvd is not ours.
   void resume(int first_state);
   /// Writes state number `state` (0: initial configuration, k: end of load step k) and updates the collection atomically.
   void write(int state, double t, const std::vector<OutputPart>& parts);

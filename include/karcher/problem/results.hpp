@@ -8,8 +8,10 @@
 
 #include "karcher/io/checkpoint.hpp"
 #include "karcher/io/console_table.hpp"
+#include "karcher/io/directory_lock.hpp"
 #include "karcher/io/iterations.hpp"
 #include "karcher/io/page.hpp"
+#include "karcher/io/probes_csv.hpp"
 #include "karcher/io/summary.hpp"
 #include "karcher/io/vtu.hpp"
 #include "karcher/problem/discrete_problem.hpp"
@@ -26,7 +28,8 @@ class Results : public Observer {
   /// \param last number of the last load step, whose fields are always written; 0: not known beforehand
   Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds, int last);
 
-  /// A new run: directory, resolved problem, and the initial configuration as state 0. Collective.
+  /// A new run: the directory, which is locked and emptied of an earlier run's results, the resolved problem, and the initial configuration as state 0. Collective.
+  /// \throws InputError if the directory cannot be written to or another run has it
   void begin(const Configuration& initial);
   /// Goes on after the load steps of a checkpoint. Collective.
   void resume(const Checkpoint& checkpoint);
@@ -35,6 +38,9 @@ class Results : public Observer {
   void finish(Status status, const std::string& reason);
 
   const Summary& summary() const { return summary_; }
+  /// On rank 0: "replaces the results of ..." after begin(), where there were any; why there is no page after finish(), where it failed.
+  const std::string& replaced() const { return replaced_; }
+  const std::string& page_trouble() const { return page_trouble_; }
   const std::filesystem::path& directory() const { return problem_.output.directory; }
   std::filesystem::path checkpoint_file() const { return directory() / "checkpoint.bin"; }
 
@@ -49,6 +55,9 @@ class Results : public Observer {
   int last_;
   bool writer_;
   OutputSampler output_;
+  std::optional<DirectoryLock> lock_;
+  std::string replaced_, page_trouble_;
+  std::optional<ProbesCsv> probes_;
   std::optional<VtuSeries> vtu_;
   std::optional<PageStates> page_;
   Summary summary_;

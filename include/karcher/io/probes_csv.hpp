@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// probes.csv: the probes after every load step, a row each.
+
+#include <filesystem>
+
+#include "karcher/io/summary.hpp"
+
+namespace karcher {
+
+/// load_step,t,NAME for probes of one number, NAME.0, NAME.1, ... for those of several; names with commas or quotes stand in quotes. Numbers read back to the
+/// same double; not finite ones are nan, inf, -inf. Problems without probes have no file.
+class ProbesCsv {
+ public:
+  /// Writes the rows of the finished load steps, if there are any; else the file is made with the first row.
+  ProbesCsv(std::filesystem::path file, const std::vector<LoadStepSummary>& finished);
+  /// \param load_step  its number, from 1 \throws Error if the file cannot be written
+  void add(int load_step, const LoadStepSummary& step);
+
+ private:
+  std::filesystem::path file_;
+};
+
+}  // namespace karcher

@@ -1,0 +1,51 @@
+#include "karcher/io/probes_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "karcher/error.hpp"
+#include "karcher/io/atomic_file.hpp"
+
+namespace karcher {
+namespace {
+
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"") == std::string::npos) return name;
+  std::string text;
+  for (const char c : name) text.append(c == '"' ? 2 : 1, c);
+  return fmt::format("\"{}\"", text);
+}
+
+std::string header(const LoadStepSummary& step) {
+  std::string line = "load_step,t";
+  for (const auto& [name, values] : step.probes)
+    for (std::size_t i = 0; i < values.size(); ++i) line += fmt::format(",{}", quoted(values.size() == 1 ? name : fmt::format("{}.{}", name, i)));
+  return line + "\n";
+}
+
+std::string row(int load_step, const LoadStepSummary& step) {
+  std::string line = fmt::format("{},{}", load_step, step.t);
+  for (const auto& entry : step.probes)
+    for (const double x : entry.second) line += fmt::format(",{}", x);
+  return line + "\n";
+}
+
+}  // namespace
+
+ProbesCsv::ProbesCsv(std::filesystem::path file, const std::vector<LoadStepSummary>& finished) : file_(std::move(file)) {
+  if (finished.empty() || finished.front().probes.empty()) return;
+  std::string content = header(finished.front());
+  for (std::size_t k = 0; k < finished.size(); ++k) content += row(static_cast<int>(k) + 1, finished[k]);
+  write_atomically(file_, content);
+}
+
+void ProbesCsv::add(int load_step, const LoadStepSummary& step) {
+  if (step.probes.empty()) return;
+  const std::string text = (std::filesystem::exists(file_) ? "" : header(step)) + row(load_step, step);
+  std::ofstream out(file_, std::ios::binary | std::ios::app);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!out.flush()) throw Error(fmt::format("The file {} cannot be written.", file_.string()));
+}
+
+}  // namespace karcher

@@ -1,5 +1,7 @@
 #include "app/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -32,7 +34,7 @@ void rank_option(CLI::App& verb, int& ranks) {
 
 int command_line(int argc, char** argv) {
   CLI::App app("Geometric finite elements: minimisers among maps into manifolds, from one text file.", "karcher");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_help_all_flag("--help-all", "help of all verbs");
   app.set_version_flag("--version", std::string(version_string));
   int ranks = 1;
@@ -118,7 +120,7 @@ int command_line(int argc, char** argv) {
   std::string key;
   bool as_markdown = false;
   CLI::App& doc_verb = *app.add_subcommand("doc", "explain a section or a key of the problem file");
-  doc_verb.add_option("KEY", key, "solver, solver.method, mesh.generate, energies.cosserat-shell, ...");
+  doc_verb.add_option("KEY", key, "solver, solver.method, mesh.generate, energies.cosserat-shell, ..., or a word that is looked for in all of them");
   doc_verb.add_flag("--markdown", as_markdown, "the keys of a section as a table in Markdown");
   doc_verb.callback([&] { action = [&] { return doc(key, as_markdown); }; });
 
@@ -130,6 +132,10 @@ int command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : 2;
+  }
+  if (!action) {
+    fmt::print(stderr, "{}", app.help());
+    return 2;
   }
   if (const std::optional<int> code = launch_ranks(ranks, argc, argv)) return *code;
   return action();

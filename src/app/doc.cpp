@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <limits>
 #include <sstream>
@@ -119,6 +120,36 @@ void doc_term(const EnergyInfo& info) {
     fmt::print("  {:<11} {}: {} (default {})\n", c.name, c.description, join_names(c.values, ", "), c.values.front());
 }
 
+/// Prints every key whose name or text has the word. \returns false if there is none
+bool doc_search(std::string word) {
+  const auto lower = [](std::string s) {
+    for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return s;
+  };
+  word = lower(word);
+  bool found = false;
+  const auto offer = [&](const std::string& page, const std::string& text) {
+    if (lower(page + " " + text).find(word) == std::string::npos) return;
+    fmt::print("{}\n", page);
+    print_wrapped(text, 4);
+    found = true;
+  };
+  for (const SectionInfo& s : schema()) {
+    if (s.name.empty()) continue;
+    offer(s.name, s.description);
+    if (s.name != "loads")
+      for (const KeyInfo& k : s.keys) offer(s.name + "." + k.name, k.description);
+  }
+  for (const GeneratorInfo& g : generators()) offer("mesh.generate = \"" + g.name + "\"", g.description);
+  for (const auto& [section, catalogue] : {std::pair("energies", &energy_catalogue()), {"loads", &load_catalogue()}})
+    for (const EnergyInfo& info : *catalogue) {
+      std::string text = info.description;
+      for (const Parameter& p : info.parameters) text += "\n" + p.name + ": " + p.description;
+      offer(std::string(section) + "." + info.type, text);
+    }
+  return found;
+}
+
 }  // namespace
 
 int doc(const std::string& key, bool as_markdown) {
@@ -158,6 +189,7 @@ int doc(const std::string& key, bool as_markdown) {
       return 0;
     }
   }
+  if (doc_search(key)) return 0;
   throw InputError("There is nothing about \"" + key + "\". " + suggestion(key, known, "Pages"));
 }
 

@@ -59,12 +59,12 @@ struct ViewOptions {
   std::vector<std::pair<std::string, std::string>> settings;
 };
 /// Makes the page of a results directory again, and a picture of it where one is asked for.
-/// \throws InputError where the directory holds no results, a field or load step is not in the page, sizes are out of range (64 to 8192), or there is no
+/// \throws InputError where the directory holds no results, a field, load step or setting is not in the page, sizes are out of range (64 to 8192), or there is no
 ///   Chromium (the message says what to install); Error where the browser fails or a file cannot be written.
 int view(const ViewOptions& options);
 
 int list(const std::string& what);
-/// \param as_markdown the keys of a section as a table in Markdown, else text for a terminal
+/// \param key  a page, or a word that is looked for in all of them  \param as_markdown the keys of a section as a table in Markdown, else text for a terminal
 int doc(const std::string& key, bool as_markdown);
 int version();
 /// Copies an example. \param name of the new directory

@@ -1,13 +1,47 @@
 #include <fmt/format.h>
 
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+
 #include "app/browser.hpp"
 #include "app/verbs.hpp"
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/page.hpp"
+#include "karcher/text.hpp"
 
 namespace karcher::app {
 namespace {
+
+enum class Setting { flag, number, text };
+
+/// The settings of the page: the members of View in viewer/src/view.ts but field and state, and what its addresses may hold besides.
+const std::map<std::string, Setting>& known_settings() {
+  using enum Setting;
+  static const std::map<std::string, Setting> all{
+      {"range", text},       {"logarithmic", flag},    {"clipOutliers", flag}, {"smooth", flag},   {"map", text},
+      {"surface", flag},     {"edges", flag},          {"opacity", number},    {"scale", number},  {"glyphs", text},
+      {"glyphSize", number}, {"clip", text},           {"clipAt", number},     {"clipFlip", flag}, {"axes", flag},
+      {"trail", flag},       {"glyphDensity", number}, {"zoom", number},       {"up", text}};
+  return all;
+}
+
+void check_setting(const std::string& name, const std::string& value) {
+  const auto found = known_settings().find(name);
+  if (found == known_settings().end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : known_settings()) names.push_back(entry.first);
+    throw InputError("--show: the page has no setting \"" + name + "\". " + suggestion(name, names, "Settings"));
+  }
+  double number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool is_number = error == std::errc() && end == value.data() + value.size() && std::isfinite(number);
+  if (found->second == Setting::number && !is_number) throw InputError(fmt::format("--show {} takes a number, not \"{}\".", name, value));
+  if (found->second == Setting::flag && value != "0" && value != "1" && value != "true" && value != "false")
+    throw InputError(fmt::format("--show {} takes 0 or 1, not \"{}\".", name, value));
+}
 
 std::string fragment(const ViewOptions& options) {
   std::string out = "#picture";
@@ -49,6 +83,11 @@ int view(const ViewOptions& options) {
   for (const int pixels : {options.width, options.height})
     if (pixels < 64 || pixels > 8192)
       throw InputError(fmt::format("A picture of {} by {} pixels cannot be made; both must be 64 to 8192.", options.width, options.height));
+  for (const auto& [name, value] : options.settings) check_setting(name, value);
+  std::string ending = options.png.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!options.png.empty() && ending != ".png")
+    throw InputError(fmt::format("--png {}: pictures are written in the PNG format, so the file must end in .png.", options.png.string()));
   write_page(options.directory);
   const std::filesystem::path page = options.directory / "report.html";
   if (options.png.empty()) {

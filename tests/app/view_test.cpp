@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "app/verbs.hpp"
 #include "karcher/error.hpp"
@@ -61,6 +62,55 @@ TEST(View, ABrowserThatEndsAtOnceIsReported) {
   EXPECT_THROW(view(options), Error);
   ::unsetenv("KARCHER_CHROMIUM");
   EXPECT_FALSE(std::filesystem::exists(directory / "x.png"));
+}
+
+TEST(View, SettingsThatThePageDoesNotHaveAreRefused) {
+  const TemporaryDirectory directory;
+  write_results(directory.path());
+  const auto told = [&](const std::string& name, const std::string& value) {
+    ViewOptions options;
+    options.directory = directory.path();
+    options.settings = {{name, value}};
+    try {
+      view(options);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(told("edge", "0").find("the page has no setting \"edge\". Did you mean \"edges\"?"), std::string::npos);
+  EXPECT_EQ(told("scale", "large"), "--show scale takes a number, not \"large\".");
+  EXPECT_EQ(told("edges", "off"), "--show edges takes 0 or 1, not \"off\".");
+  EXPECT_FALSE(std::filesystem::exists(directory / "report.html"));
+  // All settings of the viewer are known, by their types.
+  std::ifstream source(KARCHER_SOURCE_DIR "/viewer/src/view.ts");
+  std::string line;
+  int members = 0;
+  while (std::getline(source, line) && line != "export interface View {") continue;
+  while (std::getline(source, line) && line != "}") {
+    const std::size_t colon = line.find(':');
+    if (!line.ends_with(';') || colon == std::string::npos) continue;
+    const std::string name = line.substr(2, colon - 2), type = line.substr(colon + 2);
+    if (name == "field" || name == "state") continue;
+    ++members;
+    EXPECT_EQ(told(name, "1"), "") << name;
+    EXPECT_EQ(told(name, "word").empty(), type != "number;" && type != "boolean;") << name;
+  }
+  EXPECT_GE(members, 17);
+}
+
+TEST(View, APictureIsAPng) {
+  const TemporaryDirectory directory;
+  write_results(directory.path());
+  ViewOptions options;
+  options.directory = directory.path();
+  options.png = directory / "x.svg";
+  try {
+    view(options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("x.svg: pictures are written in the PNG format, so the file must end in .png."), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "app/verbs.hpp"
 #include "karcher/problem/discrete_problem.hpp"
+#include "karcher/problem/reference_energy.hpp"
 #include "karcher/solve/petsc.hpp"
 #include "karcher/solve/together.hpp"
 
@@ -133,8 +134,8 @@ int check(const CheckOptions& options) {
     long fixed = 0;
     for (const char c : model.discretisation.constraints.fixed()[i]) fixed += c != 0;
     const int nodes = model.fields()[i].space->node_count();
-    fmt::print("  {:<20} {} of order {}{} on {}: {} nodes, {} unknowns, {} fixed\n", f.name, f.manifold->name, f.order, rule, f.on, nodes,
-               nodes * f.manifold->dim, fixed);
+    fmt::print("  {:<20} {} of order {}{} on {}: {} nodes, {} unknowns, {} fixed\n", f.name, f.manifold->name, model.fields()[i].space->order(), rule,
+               f.on, nodes, nodes * f.manifold->dim, fixed);
   }
   fmt::print("energies and loads\n");
   for (std::size_t i = 0; i < problem.terms.size(); ++i) {
@@ -142,6 +143,7 @@ int check(const CheckOptions& options) {
     for (const int f : problem.terms[i].fields) fields += (fields.empty() ? "" : ", ") + problem.fields[static_cast<std::size_t>(f)].name;
     fmt::print("  {:<20} of {} on {}\n", model.term_names[i], fields, problem.terms[i].on);
   }
+  if (const std::string sentence = reference_sentence(model); !sentence.empty()) fmt::print("{}\n", sentence);
   fmt::print("unknowns  {} free, blocks of {}\n", model.layout->free_dofs(), model.layout->block_size());
   for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);
   if (options.derivatives && !derivatives(model)) return 1;

@@ -3,22 +3,35 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <new>
+#include <stdexcept>
 #include <thread>
 
 #include "app/launch.hpp"
+#include "karcher/memory.hpp"
 #include "karcher/solve/petsc.hpp"
 #include "karcher/solve/together.hpp"
+#include "karcher/text.hpp"
 
 namespace karcher::app {
 namespace {
 
 int exit_code(const std::exception& error) { return dynamic_cast<const InputError*>(&error) ? 2 : 3; }
 
+/// A container that asks for more than there is says so in words of its own.
+bool is_out_of_memory(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error);
+}
+
 }  // namespace
 
 int tell_error(const std::exception& error) {
   const bool known = dynamic_cast<const InputError*>(&error) || dynamic_cast<const Error*>(&error);
-  fmt::print(stderr, "{}: {}\n", known ? "error" : "internal error", error.what());
+  if (is_out_of_memory(error))
+    fmt::print(stderr, "error: the memory is used up; this process may have {}. A coarser mesh or lower orders need less.\n",
+               bytes_text(memory_limit()));
+  else
+    fmt::print(stderr, "{}: {}\n", known ? "error" : "internal error", printable(error.what()));
   std::fflush(stderr);
   return exit_code(error);
 }

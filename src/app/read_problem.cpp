@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "app/problem_file.hpp"
 #include "app/read_terms.hpp"
@@ -29,14 +32,15 @@ class Reader {
     Section top(&root_, "", whole, section_info("").keys);
     problem_.title = top.text("title", problem_.file.stem().string());
     if (problem_.title.empty()) refuse(top.place("title"), "title must not be empty.");
+    if (has_control_characters(problem_.title)) refuse(top.place("title"), "title must be one line without control characters.");
     note("title", Value::of(problem_.title));
     parameters();
     mesh(top);
     regions();
-    reference();
     fields(top);
     exact();
     terms(top);
+    reference();
     initial_values();
     dirichlet();
     continuation();
@@ -60,6 +64,17 @@ class Reader {
     return e ? &e->value : nullptr;
   }
   void note(const std::string& key, Value value) { problem_.values.append(key, {}, std::move(value)); }
+  static void check_name(const Place& place, const std::string& what, const std::string& name) {
+    if (const std::string fault = fault_of_name(name); !fault.empty())
+      refuse(place, "the name of the " + what + " \"" + printable(name) + "\" " + fault + ".");
+  }
+  /// What is known after the terms only stands before them in the resolved file.
+  void note_before_terms(const std::string& key, Value value) {
+    auto& entries = problem_.values.entries;
+    note(key, std::move(value));
+    const auto first_term = std::find_if(entries.begin(), entries.end(), [](const Entry& e) { return e.key == "energies" || e.key == "loads"; });
+    if (first_term != entries.end()) std::rotate(first_term, entries.end() - 1, entries.end());
+  }
   void note(const Section& section) { note(section.path(), section.resolved()); }
   Section section(const std::string& name, const std::vector<KeyInfo>& more = {}) const {
     std::vector<KeyInfo> keys = section_info(name).keys;
@@ -122,9 +137,19 @@ class Reader {
       GeneratorOptions generator{s.text("generate"), {}, {}};
       for (const GeneratorArgument& a : info->arguments) generator_argument(s, a, generator);
       spec.make = [generator] { return karcher::generate(generator); };
+      mesh_order_ = static_cast<int>(generator.numbers.at("order").front());
     }
     spec.refine = s.integer("refine");
     note(s);
+  }
+
+  /// Of a mesh file, by reading it: that mesh is then the first that is made.
+  int mesh_order() {
+    if (mesh_order_ > 0) return mesh_order_;
+    MeshSpec& spec = problem_.mesh;
+    const auto read = std::make_shared<std::optional<Mesh>>(at_place(spec.place, spec.make));
+    spec.make = [read, again = spec.make] { return *read ? *std::exchange(*read, std::nullopt) : again(); };
+    return mesh_order_ = (*read)->order();
   }
 
   /// The generator's entry as a part of the table of keys.
@@ -157,6 +182,7 @@ class Reader {
     Value all;
     for (const Entry& e : named_tables("regions")) {
       Section s(&e.value, "regions." + e.key, e.value.place, section_info("regions").keys);
+      check_name(e.place, "region", e.key);
       if (e.key == "all") refuse(e.place, "the region \"all\" is the whole mesh and cannot be defined anew.");
       RegionSpec& spec = problem_.regions.emplace_back();
       spec.name = e.key;
@@ -180,20 +206,22 @@ class Reader {
     problem_.reference.position = [position](const Vec3<double>& x) {
       return Vec3<double>{{position[0](x, 0), position[1](x, 0), position[2](x, 0)}};
     };
-    problem_.reference.order = s.integer("order");
-    note(s);
+    const int deformation = problem_.deformation();
+    problem_.reference.order = s.integer("order", deformation < 0 ? 2 : problem_.fields[static_cast<std::size_t>(deformation)].order);
+    note_before_terms("reference", s.resolved());
   }
 
   void fields(const Section& top) {
     if (!top.has("fields")) top.missing("fields");
     for (const Entry& e : named_tables("fields")) {
       Section s(&e.value, "fields." + e.key, e.value.place, section_info("fields").keys);
+      check_name(e.place, "field", e.key);
       FieldSpec& spec = problem_.fields.emplace_back();
       spec.name = e.key;
       spec.place = e.place;
       const std::string manifold = s.text("manifold");
       spec.manifold = &at_place(s.place("manifold"), [&]() -> const ManifoldOps& { return manifold_by_name(manifold); });
-      spec.order = s.integer("order");
+      spec.order = s.has("order") ? s.integer("order") : s.integer("order", mesh_order());
       const bool linear = spec.manifold->linear;
       const std::string rule = s.word("interpolation", spec.manifold->has_projection || linear ? "projection" : "geodesic");
       spec.rule = rule == "projection" ? Rule::projection : Rule::geodesic;
@@ -253,11 +281,7 @@ class Reader {
       }
       all.append(spec.name, {}, s.resolved());
     }
-    // In the resolved file, fields stand before the terms.
-    auto& entries = problem_.values.entries;
-    note("fields", all);
-    const auto first_term = std::find_if(entries.begin(), entries.end(), [](const Entry& e) { return e.key == "energies" || e.key == "loads"; });
-    if (first_term != entries.end()) std::rotate(first_term, entries.end() - 1, entries.end());
+    note_before_terms("fields", all);
   }
 
   void dirichlet() {
@@ -403,6 +427,7 @@ class Reader {
       ProbeSpec spec;
       spec.place = s.place();
       spec.name = s.text("name");
+      check_name(s.place("name"), "probe", spec.name);
       for (const ProbeSpec& other : problem_.probes)
         if (other.name == spec.name) refuse(s.place("name"), "there is a probe \"" + spec.name + "\" already (" + other.place.text() + ").");
       spec.field = field_index(s.text("field"), s.place("field"));
@@ -453,6 +478,7 @@ class Reader {
   ProblemFile problem_;
   std::vector<Section> field_sections_;
   Value exact_resolved_;
+  int mesh_order_ = 0;  ///< 0: not known yet
 };
 
 }  // namespace

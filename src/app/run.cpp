@@ -5,6 +5,7 @@
 #include "app/launch.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
+#include "karcher/problem/reference_energy.hpp"
 #include "karcher/problem/results.hpp"
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/petsc.hpp"
@@ -81,6 +82,7 @@ int run(const RunOptions& options) {
       table->line(fmt::format("{}: {} unknowns, {} free, on {} rank{}{}", problem.title, results.summary().unknowns, model.layout->free_dofs(),
                               model.layout->ranks(), model.layout->ranks() == 1 ? "" : "s",
                               finished > 0 ? fmt::format(", resumed after load step {} (t = {:.6g})", finished, u.t) : std::string()));
+      if (const std::string sentence = reference_sentence(model); !sentence.empty()) table->line(sentence);
     }
   }
   if (options.resume)

@@ -87,7 +87,6 @@ KeyInfo table(std::string name, std::string type, Default standard, std::string 
 std::vector<SectionInfo> make_schema() {
   const MeshSpec mesh;
   const RegionSpec region;
-  const ReferenceSpec reference;
   const FieldSpec field;
   const TermSpec term;
   const ContinuationOptions continuation;
@@ -135,11 +134,12 @@ std::vector<SectionInfo> make_schema() {
        "Stress-free configuration, if it is not the mesh itself.",
        {expression("position", required, 3, "its place, as function of the mesh point; its Lagrange interpolant gives tangents, normal and curvature",
                    "length"),
-        integer("order", reference.order, 1, 3, "Lagrange order of the interpolant")}},
+        integer("order", described("that of the deformation, else 2"), 1, 3, "Lagrange order of the interpolant")}},
       {"fields",
        "[fields.NAME]",
        "A map from a region into a manifold. Manifolds: karcher list manifolds",
-       {text("manifold", "name", required, join_names(manifold_names(), " ")), integer("order", field.order, 1, 3, "Lagrange order"),
+       {text("manifold", "name", required, join_names(manifold_names(), " ")),
+        integer("order", described("that of the mesh"), 1, 3, "Lagrange order"),
         word("interpolation", "projection or geodesic", described("projection where the manifold has it, else geodesic"), {"projection", "geodesic"},
              "rule that makes a function of nodal values; without meaning for R^n"),
         text("on", "region", field.on, "region that carries the field"),

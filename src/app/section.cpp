@@ -99,9 +99,9 @@ bool Section::flag(const std::string& key) {
   return v.boolean;
 }
 
-int Section::integer(const std::string& key) {
+int Section::integer(const std::string& key, const std::optional<int>& standard) {
   const KeyInfo& k = info(key, {KeyKind::integer});
-  const Value& v = value(k);
+  const Value& v = standard && !given(key) ? Value::of(static_cast<long long>(*standard)) : value(k);
   const bool whole = v.is(Value::Kind::integer) || (v.is(Value::Kind::number) && v.number == std::floor(v.number) && std::abs(v.number) < 1e9);
   if (!whole) wrong_type(key, v, "a whole number");
   const long long i = v.is(Value::Kind::integer) ? v.integer : static_cast<long long>(v.number);

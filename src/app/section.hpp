@@ -36,7 +36,7 @@ class Section {
   /// \param words those that have a meaning here; empty: all of the key's
   std::string word(const std::string& key, const std::optional<std::string>& standard = {}, const std::vector<std::string>& words = {});
   bool flag(const std::string& key);
-  int integer(const std::string& key);
+  int integer(const std::string& key, const std::optional<int>& standard = {});
   double number(const std::string& key);
   /// A number or an expression.
   Expression expression(const std::string& key, const Scope& scope);

@@ -271,7 +271,8 @@ std::string Value::kind_name() const {
 
 Value read_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
   if (std::filesystem::is_directory(file)) throw InputError(file.string() + " is a directory, not a problem file.");
-  const std::string content = read_whole(file);
+  constexpr std::size_t most = 100'000'000;
+  const std::string content = read_whole(file, most);
   Value root;
   try {
     root = convert(toml::parse(content, file.string()), file.string());

@@ -42,6 +42,7 @@ std::vector<Entry> cosserat_shell_entries() {
   e.choices = {{"coupling", {"default", "birsan-2021"}, "form of the membrane and bending energy; birsan-2021: the refined Wcoss of Birsan (2021)"}};
   e.parts = {"membrane", "bending", "curvature"};
   e.lame = true;
+  e.stress_free = true;
   return {{e, [](const EnergyInfo& info, const TermInput& input) { return make_shell_term(term_info(info, input), input); }}};
 }
 

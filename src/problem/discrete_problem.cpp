@@ -9,11 +9,16 @@
 #include "karcher/mesh/refine.hpp"
 #include "karcher/problem/mesh_points.hpp"
 #include "karcher/problem/probes.hpp"
+#include "karcher/problem/reference_energy.hpp"
+#include "karcher/problem/supports.hpp"
 #include "karcher/solve/petsc.hpp"
 #include "karcher/solve/together.hpp"
+#include "problem/problem_size.hpp"
 
 namespace karcher {
 namespace {
+
+int order_of(const FieldSpec& field, const Mesh& mesh) { return field.order > 0 ? field.order : mesh.order(); }
 
 void add_region(Mesh& mesh, const RegionSpec& spec) {
   if (mesh.regions.contains(spec.name)) refuse(spec.place, "the mesh has a region \"" + spec.name + "\" already; take another name.");
@@ -51,8 +56,9 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.parameters = spec.parameters;
   input.choices = spec.choices;
   input.quadrature_degree = problem.quadrature;
-  input.reference_position = problem.reference.position;
-  input.reference_order = problem.reference.order;
+  const ReferenceSpec stress_free = reference(problem, *d.mesh);
+  input.reference_position = stress_free.position;
+  input.reference_order = stress_free.order;
   input.t = problem.continuation.from;
   return at_place(spec.place, [&] { return spec.make(std::move(input)); });
 }
@@ -97,14 +103,31 @@ int Problem::deformation() const {
   return -1;
 }
 
+ReferenceSpec reference(const Problem& problem, const Mesh& mesh) {
+  int order = 0;  // lowest of a deformation
+  for (const TermSpec& t : problem.terms)
+    for (std::size_t k = 0; k < t.fields.size(); ++k) {
+      if (!t.info.fields[k].moves) continue;
+      const int own = order_of(problem.fields[static_cast<std::size_t>(t.fields[k])], mesh);
+      order = order == 0 ? own : std::min(order, own);
+    }
+  ReferenceSpec result = problem.reference;
+  if (!result.position && order > 0 && order < mesh.order()) {
+    result.position = [](const Vec3<double>& x) { return x; };
+    result.order = order;
+  }
+  if (result.order == 0) result.order = order > 0 ? order : 2;
+  return result;
+}
+
 std::vector<Vec3<double>> reference_positions(const Problem& problem, const Space& space) {
   std::vector<Vec3<double>> positions(static_cast<std::size_t>(space.node_count()));
-  const auto& position = problem.reference.position;
-  if (!position) {
+  const ReferenceSpec stress_free = reference(problem, space.mesh());
+  if (!stress_free.position) {
     for (int node = 0; node < space.node_count(); ++node) positions[static_cast<std::size_t>(node)] = space.position(node);
     return positions;
   }
-  const ReferenceGeometry geometry(space.mesh(), position, problem.reference.order);
+  const ReferenceGeometry geometry(space.mesh(), stress_free.position, stress_free.order);
   for (std::size_t c = 0; c < space.region().cells.size(); ++c) {
     const Cell& cell = space.region().cells[c];
     const std::vector<int>& nodes = space.cell_nodes(static_cast<int>(c));
@@ -117,6 +140,7 @@ std::vector<Vec3<double>> reference_positions(const Problem& problem, const Spac
 std::shared_ptr<const Mesh> build_mesh(const Problem& problem) {
   const MeshSpec& spec = problem.mesh;
   auto mesh = std::make_shared<Mesh>(at_place(spec.place, spec.make));
+  at_place(spec.place, [&] { require_room(problem, *mesh); });
   for (int i = 0; i < spec.refine; ++i) *mesh = refine(*mesh).mesh;
   for (const RegionSpec& region : problem.regions) add_region(*mesh, region);
   return mesh;
@@ -128,7 +152,7 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
   d.initial.t = problem.continuation.from;
   for (const FieldSpec& spec : problem.fields) {
     const Region& region = at_place(spec.on_place, [&]() -> const Region& { return d.mesh->region(spec.on); });
-    const auto space = at_place(spec.place, [&] { return std::make_shared<const Space>(d.mesh, region, spec.order); });
+    const auto space = at_place(spec.place, [&] { return std::make_shared<const Space>(d.mesh, region, order_of(spec, *d.mesh)); });
     d.fields.push_back({spec.name, spec.manifold, spec.rule, space});
     d.initial.values.push_back(initial_values(problem, spec, *space));
   }
@@ -146,6 +170,7 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
     m.layout = std::make_shared<const Layout>(m.discretisation.fields, m.discretisation.constraints.fixed(), cell_ranks, world_rank(), ranks);
   });
   together([&] {
+    m.warnings = m.discretisation.mesh->warnings;
     std::vector<std::unique_ptr<Term>> terms;
     std::vector<std::string> names;
     for (const TermSpec& spec : problem.terms) {
@@ -157,6 +182,9 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
     m.functional = std::make_unique<Functional>(m.layout, std::move(terms));
   });
   m.exchange = std::make_unique<Exchange>(*m.layout);
+  measure_reference(problem, m);
+  for (const std::string& sentence : seams(*m.discretisation.mesh)) m.warnings.push_back(sentence);
+  for (const std::string& sentence : free_motions(problem, m)) m.warnings.push_back(sentence);
   return m;
 }
 
@@ -189,8 +217,9 @@ OutputModel output_model(const Problem& problem, const DiscreteProblem& model) {
   o.fields = model.fields();
   o.deformation = problem.deformation();
   set_terms(o, *model.functional);
-  o.reference_position = problem.reference.position;
-  o.reference_order = problem.reference.order;
+  const ReferenceSpec stress_free = reference(problem, *model.discretisation.mesh);
+  o.reference_position = stress_free.position;
+  o.reference_order = stress_free.order;
   return o;
 }
 

@@ -40,8 +40,9 @@ std::vector<double> probe_value(const ProbeSpec& probe, const Problem& problem, 
     nodes.insert(nodes.end(), u.values[index].begin() + node * n, u.values[index].begin() + (node + 1) * n);
   const FieldAtPoint at = evaluate_field(*field.manifold, field.rule, nodes, shape.value);
   if (!at.defined) return std::vector<double>(static_cast<std::size_t>(n), std::numeric_limits<double>::quiet_NaN());
-  const Vec3<double> reference = ReferenceGeometry(mesh, problem.reference.position, problem.reference.order).at(cell, {where.xi}).front().x;
-  return quantity(probe, *field.manifold, at.value, reference);
+  const ReferenceSpec stress_free = reference(problem, mesh);
+  const Vec3<double> place = ReferenceGeometry(mesh, stress_free.position, stress_free.order).at(cell, {where.xi}).front().x;
+  return quantity(probe, *field.manifold, at.value, place);
 }
 
 std::map<std::string, std::vector<double>> probe_values(const Problem& problem, const DiscreteProblem& model, const Configuration& u) {

@@ -107,6 +107,29 @@ std::vector<Mistake> mistakes() {
       {"ValueOutOfRange", with("thickness = 0.1", "thickness = -0.1"), ":31:13: ", {"energies.0.thickness is -0.1; it must be greater than 0"}},
       {"WrongNumberOfEntries", with("[0, 0, \"load*t\"]", "[0, \"load*t\"]"), ":40:9: ", {"loads.0.value takes 3"}},
       {"NotARotation", with("\"identity\"", "[1, 2]"), ":24:11: ", {"fields.Q.initial has 2 entries", "rotation vector"}},
+      {"NameWithAControlCharacter",
+       with("[regions.middle]", "[regions.\"mid\\u001bdle\"]"),
+       ":12:10: ",
+       {"the name of the region \"mid\\x1bdle\" has control characters."}},
+      {"NameWithAZero",
+       with("[regions.middle]", "[regions.\"a\\u0000b\"]"),
+       ":12:10: ",
+       {"the name of the region \"a\\x00b\" has control characters."}},
+      {"NameTooLong", with("[regions.middle]", "[regions." + std::string(101, 'a') + "]"), ":12:10: ", {"has more than 100 characters."}},
+      {"FieldWithoutAName", with("[solver]", "[fields.\"\"]\nmanifold = \"R1\"\n[solver]"), ":47:9: ", {"the name of the field \"\" is empty."}},
+      {"TitleOfSeveralLines", with("\"A strip\"", "\"A\\nstrip\""), ":1:", {"title must be one line without control characters."}},
+      {"ProbeWhoseDistanceOverflows",
+       good + "\n[[probes]]\nname = \"far\"\nfield = \"m\"\nat = [0, 1e308, 0]\n",
+       ":53:",
+       {"lies outside the region \"all\"", "at a distance of 1e+308."}},
+      {"MeshThatCannotBeNumbered",
+       with("cells = [2, 1]", "refine = 20\ncells = [2, 1]"),
+       ":6:1: ",
+       {"The mesh, refined 20 times,", "are not numbered."}},
+      {"MeshFileThatIsADirectory",
+       with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"", "file = \".\""),
+       ":7:8: ",
+       {"is a directory."}},
       {"Syntax", with("dim = 2", "dim = = 2"), ":13:", {"this is not TOML"}},
       {"NoMesh", with("[mesh]", "[regions.mesh]"), "", {"lacks the key \"mesh\""}},
       {"ComponentOfARotation",
@@ -193,6 +216,7 @@ TEST(BadInput, OnTwoRanksIsToldOnce) {
 TEST(BadInput, AShellThatIsTooThickForItsCurvatureIsToldWithTheCurvatureOnAnyNumberOfRanks) {
   std::string text = with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"",
                           "generate = \"cylinder\"\nradius = 0.04\ncells = [6, 2]\norder = 2");
+  text.replace(text.find("order = 1"), 9, "order = 2");  // a reference of order 1 is flat
   text.replace(text.find("x > 0.9"), 7, "z > 0.4");
   text.replace(text.find("\"left\""), 6, "\"bottom\"");
   for (const char* arguments : {"run strip.toml", "run strip.toml -n 2"}) {
@@ -260,6 +284,24 @@ TEST(BadInput, MeshFilesThatCannotBeReadAreNamedInTheProblemFileAndByThemselves)
   }
 }
 
+TEST(BadInput, AMeshThatDoesNotFitIntoMemoryIsRefusedBeforeItIsMade) {
+  const Workshop shop;
+  shop.write("strip.toml", good);
+  for (const char* size : {"mesh.cells=[20000,20000]", "mesh.refine=14"}) {
+    const Outcome o = shop.karcher(std::string("check strip.toml --set ") + size, "ulimit -v 8000000;");
+    EXPECT_EQ(o.code, 2) << o.err;
+    EXPECT_NE(o.err.find("strip.toml:6:1: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("GB of memory; this process may have 8.19 GB."), std::string::npos) << o.err;
+  }
+}
+
+TEST(BadInput, ADeviceIsNoProblemFile) {
+  const Workshop shop;
+  const Outcome o = shop.karcher("check /dev/zero");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("The file /dev/zero has more than 100000000 bytes."), std::string::npos) << o.err;
+}
+
 TEST(BadInput, OverridesAreNamedInMessages) {
   const Workshop shop;
   shop.write("strip.toml", good);
@@ -273,6 +315,7 @@ TEST(BadInput, OverridesAreNamedInMessages) {
 TEST(BadInput, WrongCommandLinesAreInputErrors) {
   const Workshop shop;
   EXPECT_EQ(shop.karcher("").code, 2);
+  EXPECT_NE(shop.karcher("").err.find("solve a problem and write its results"), std::string::npos);
   EXPECT_EQ(shop.karcher("rum problem.toml").code, 2);
   EXPECT_EQ(shop.karcher("run").code, 2);
   EXPECT_EQ(shop.karcher("run nowhere.toml").code, 2);

@@ -154,7 +154,7 @@ TEST(Schema, DefaultsAreThoseOfTheTableInTheResolvedFile) {
       found.append(k.name, {}, entries->find(k.name)->value);
       EXPECT_EQ(to_toml(found), to_toml(expected)) << s.header;
     }
-  EXPECT_GE(defaults, 26);
+  EXPECT_GE(defaults, 24);
   EXPECT_EQ(problem.solver.gradient_tolerance, SolverOptions{}.gradient_tolerance);
   EXPECT_EQ(problem.continuation.smallest, ContinuationOptions{}.smallest);
 }

@@ -69,6 +69,8 @@ struct EnergyInfo {
   std::vector<std::string> parts;  ///< of the energy, where the density can tell them apart
   bool lame = false;               ///< mu and lambda may be given as young and poisson instead (the reader converts)
   bool load = false;               ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
+  /// Vanishes in the stress-free configuration: where a field that moves is the reference position and the others are their manifolds' standard points.
+  bool stress_free = false;
 
   std::string term_name() const { return load ? type + "-load" : type; }
 };

@@ -3,6 +3,7 @@
 /// A problem on its mesh: regions, fields with initial values, boundary data, and the functional.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct DiscreteProblem {
   std::unique_ptr<Exchange> exchange;
   std::vector<std::string> term_names;  ///< distinct
   std::vector<std::string> warnings;
+  std::vector<std::optional<double>> reference_energies;  ///< by term; reference_energy.hpp
 
   const std::vector<Field>& fields() const { return discretisation.fields; }
 };
@@ -56,6 +58,10 @@ BoundaryValues boundary_values(const DiscreteProblem& model);
 
 /// What writers of results need to know.
 OutputModel output_model(const Problem& problem, const DiscreteProblem& model);
+
+/// The stress-free configuration in which the deformation can be exactly, so that strains vanish there to rounding: the deformation's own interpolant of the mesh
+/// where the mesh is of higher order, else what the problem states. A position without order, or one of a mesh of higher order, comes with its order.
+ReferenceSpec reference(const Problem& problem, const Mesh& mesh);
 
 /// Place of the nodes of a space in the stress-free configuration.
 std::vector<Vec3<double>> reference_positions(const Problem& problem, const Space& space);

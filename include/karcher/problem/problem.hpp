@@ -58,14 +58,14 @@ struct RegionSpec {
 /// The stress-free configuration, where it is not the mesh.
 struct ReferenceSpec {
   std::function<Vec3<double>(const Vec3<double>&)> position;  ///< of the mesh point; empty: the mesh itself
-  int order = 2;                                              ///< of its Lagrange interpolant
+  int order = 0;                                              ///< of its Lagrange interpolant; 0: the deformation's, else 2
 };
 
 struct FieldSpec {
   std::string name;
   Place place, on_place;
   const ManifoldOps* manifold = nullptr;
-  int order = 1;
+  int order = 0;  ///< 0: the mesh's
   Rule rule = Rule::projection;
   std::string on = "all";
   PointFunction initial;  ///< empty: the reference position (R^n)
@@ -116,7 +116,7 @@ struct FieldOf {
 };
 
 struct FieldOptions {
-  int order = 1;
+  int order = 0;                 ///< 0: the mesh's
   Rule rule = Rule::projection;  ///< geodesic where a manifold has no projection
   std::string on = "all";
   bool moves = false;  ///< its values are the places of the points, where pictures show them

@@ -137,9 +137,44 @@ Step DirectSubproblem::known_step(double radius, const Step* across) const {
   return basis_.step_of(basis_.minimise(radius, across ? std::span<const double>(across->coordinates) : std::span<const double>()));
 }
 
-std::optional<Inertia> DirectSubproblem::inertia() {
-  if (shift_ != 0) refactor(0.0);
+std::optional<Inertia> DirectSubproblem::inertia(double shift) {
+  if (shift_ != shift) refactor(shift);
   return inertia_;
+}
+
+bool DirectSubproblem::no_eigenvalue_within(double s) {
+  const SolverTuning& tuning = input_.tuning;
+  if (inertia(0.0)->null > 0) return false;
+  const auto owned = static_cast<std::size_t>(input_.exchange.owned_dofs());
+  const auto size = [&](std::span<const double> v) {
+    double square = 0;
+    for (std::size_t d = 0; d < owned; ++d) square += input_.mass[d] * v[d] * v[d];
+    return std::sqrt(sum_over_ranks(square));
+  };
+  std::vector<double> v(input_.mass.size());
+  for (std::size_t d = 0; d < v.size(); ++d) v[d] = input_.fixed[d] ? 0 : seed_entry(tuning.certificate_seed, input_.numbers[d]);
+  // Let c be the part of the unit vector v along an eigenvector with |e| <= s: after k steps v = s H^-1 M v it is c or more. A vector without symmetry has
+  // c of about 1 / sqrt(n), so that |v| < rare_part / sqrt(n) says that there is none.
+  const double least = tuning.rare_part / std::sqrt(static_cast<double>(input_.exchange.global_dofs()));
+  double now = size(v);
+  for (double& x : v) x /= now;
+  for (int k = 0; k < tuning.certificate_solves; ++k) {
+    for (std::size_t d = 0; d < v.size(); ++d) v[d] *= input_.fixed[d] ? 0 : s * input_.mass[d];
+    solve(v, v);
+    now = size(v);
+    if (!std::isfinite(now)) return false;
+    if (now < least) return true;
+  }
+  return false;
+}
+
+double DirectSubproblem::soft_part(std::span<const double> g) {
+  std::vector<double> w(g.size());
+  solve(g, w);
+  double square = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(input_.exchange.owned_dofs()); ++d) square += g[d] * g[d] / input_.mass[d];
+  square = sum_over_ranks(square);
+  return square > 0 ? shift_ * input_.exchange.dot(g, w) / square : 0.0;
 }
 
 double DirectSubproblem::next_shift(const Step& accepted, double ratio) const {

@@ -30,7 +30,10 @@ class DirectSubproblem : public Subproblem {
   void forget_directions() override;
   Step step(double radius, const Effort& effort) override;
   Step known_step(double radius, const Step* across = nullptr) const override;
-  std::optional<Inertia> inertia() override;
+  std::optional<Inertia> inertia(double shift) override;
+  /// By inverse iteration from a vector without symmetry, which leaves the basis as it is.
+  bool no_eigenvalue_within(double s) override;
+  double soft_part(std::span<const double> g) override;
   /// Ends when the basis holds all negative directions that the inertia counts and the lowest Ritz value changes by less than a tenth.
   void find_negative_directions() override;
   std::vector<double> ritz_values() const override { return basis_.spectrum().values; }

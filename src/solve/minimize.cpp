@@ -228,7 +228,12 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   else
     while (!s.iterate()) {
     }
-  if (s.report.status == Status::not_converged) s.judge();
+  if (s.report.status == Status::not_converged) {
+    const std::optional<Stability> stability = s.judge();
+    if (stability && stability->loaded)
+      s.report.reason += fmt::format(" The load works along a motion that nothing holds ({} eigenvalue{} zero): a support is missing.",
+                                     stability->neutral, stability->neutral == 1 ? " is" : "s are");
+  }
 
   u.values.swap(s.current.u.values);
   s.current.u.values.clear();

@@ -37,19 +37,19 @@ std::string Stability::kind() const {
 std::optional<Stability> stability_at(System& system, Iterate& x) {
   if (!system.linearise(x, 0.0)) return {};
   Subproblem& subproblem = system.subproblem();
+  const std::optional<Inertia> inertia = subproblem.inertia(0.0);
   // So that what the next load step begins with depends on this point alone, and a resumed run begins with the same.
   subproblem.forget_directions();
-  const std::optional<Inertia> inertia = subproblem.inertia();
   if (!inertia) return Stability{};
-  Stability result{inertia->negative, inertia->null};
-  if (result.negative == 0) return result;
-  subproblem.find_negative_directions();
   const double zero = system.tuning.neutral * stiffest(system);
-  for (double e : subproblem.ritz_values())
-    if (e < 0 && e > -zero) {
-      --result.negative;
-      ++result.neutral;
-    }
+  Stability result{inertia->negative, 0};
+  if (!subproblem.no_eigenvalue_within(zero)) {
+    const int not_positive = subproblem.inertia(-zero)->negative;
+    result.negative = subproblem.inertia(zero)->negative;
+    result.neutral = std::max(0, not_positive - result.negative);
+    result.loaded = result.neutral > 0 && x.gradient_norm > system.rounding().gradient_norm && subproblem.soft_part(x.g) > system.tuning.soft_part;
+  }
+  if (result.negative > 0) subproblem.find_negative_directions();
   return result;
 }
 

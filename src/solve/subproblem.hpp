@@ -49,8 +49,12 @@ class Subproblem {
   /// The best step in the directions that are known already.
   virtual Step known_step(double radius, const Step* across = nullptr) const = 0;
 
-  /// Of H itself; nothing from those who cannot tell. May cost a factorisation.
-  virtual std::optional<Inertia> inertia() = 0;
+  /// Of H + shift M; nothing from those who cannot tell. May cost a factorisation, which stays in use.
+  virtual std::optional<Inertia> inertia(double shift) = 0;
+  /// Whether H has no eigenvalue in [-s, s] (H x = e M x), as far as a few solves tell: true is sure but for a chance of one in a thousand, false says nothing.
+  virtual bool no_eigenvalue_within(double s) = 0;
+  /// The part of |g|_*^2 that works along eigenvectors of eigenvalues much smaller than the shift of the last inertia(shift), which must be positive. Costs a solve.
+  virtual double soft_part(std::span<const double> g) = 0;
   /// Seeks the directions of negative curvature that inertia() counts, as far as a bounded effort finds them.
   virtual void find_negative_directions() = 0;
   /// Values of s.H s / |s|_M^2 that are known to be stationary in the known directions, ascending, and the direction of the lowest (all zero if none is known).

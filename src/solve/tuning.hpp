@@ -58,8 +58,14 @@ struct SolverTuning {
   int most_escapes = 20;  ///< in a load step; each one lowers the energy, so this is a guard against wasting time only
   /// Lengths tried along the lowest eigenvector: doubled from escape_from on while the energy falls, and shorter than escape_up_to.
   double escape_from = 1e-3, escape_up_to = 3;
-  /// An eigenvalue > -this * (largest H_dd / M_dd) is zero: its sign is rounding.
-  double neutral = 1e-13;
+
+  // The certificate (solve/stability.hpp).
+  /// An eigenvalue with |e| <= this * (largest H_dd / M_dd) is zero: its sign is rounding.
+  double neutral = 1e-11;
+  int certificate_solves = 4;   ///< by which a Hessian without such eigenvalues is told, so that most need no further factorisation
+  int certificate_seed = 1000;  ///< far from those of the searches
+  double rare_part = 1e-3;  ///< a vector without symmetry has a smaller part along a given direction than this / sqrt(n) in one of a thousand cases
+  double soft_part = 0.1;   ///< a gradient of which more than this works along neutral directions is a load that nothing holds
 
   // What a step may cost.
   Effort trial{.accuracy = 0.05, .expansions = 10, .refactorisations = 2};   ///< 5 % of the decrease are not worth a solve

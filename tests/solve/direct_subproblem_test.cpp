@@ -113,7 +113,7 @@ TEST(DirectSubproblem, FindsNegativeCurvatureThatTheGradientDoesNotSee) {
   auto eigenvalues = spread(60, 1e-2, 1e4);
   eigenvalues[5] = -2;
   Problem p(eigenvalues, 4, {5});
-  EXPECT_EQ(p.subproblem->inertia()->negative, 1);
+  EXPECT_EQ(p.subproblem->inertia(0)->negative, 1);
   const auto step = p.subproblem->step(3.0, {.accuracy = 1e-4, .expansions = 20, .refactorisations = 3});
   EXPECT_EQ(p.subproblem->negative_in_basis(), 1);
   EXPECT_NEAR(step.multiplier, 2, 1e-4);

@@ -270,6 +270,24 @@ TEST(Minimize, ALoadStepWithoutLoadDoesNotEndALoadingThatSetsInLater) {
   EXPECT_NEAR(p.value(20), 2 + 20 * 0.5 / 1e6, 1e-15);
 }
 
+TEST(Minimize, ALoadOnAMotionThatNothingHoldsIsToldAsAMissingSupport) {
+  CellFunction pulled = [](const auto& u, const auto& x, double, double* g, double* h) {
+    CellValue value = springs(u, x, 1, g, h);
+    value.energy -= 0.5 * (*u[0] + *u[1]);
+    if (g) g[0] -= 0.5, g[1] -= 0.5;
+    return value;
+  };
+  SmallProblem p(6, manifold_by_name("R1"), pulled, {0, 1, 2, 3, 4, 5, 6});
+  SolverOptions options;
+  options.max_iterations = 10;
+  const StepReport report = minimize(*p.functional, p.u, options, {});
+  EXPECT_EQ(report.status, Status::not_converged);
+  EXPECT_EQ(report.negative_eigenvalues, 0);
+  EXPECT_EQ(report.neutral_eigenvalues, 1);
+  EXPECT_NE(report.reason.find("works along a motion that nothing holds (1 eigenvalue is zero): a support is missing."), std::string::npos)
+      << report.reason;
+}
+
 TEST(Minimize, AStepThatOverflowsOrVanishesInTheArithmeticIsNoConvergence) {
   const Local too_long{0, 1e153, 1e-153}, too_short{0, 1, 1e300};
   for (const Local& at : {too_long, too_short}) {

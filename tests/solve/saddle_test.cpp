@@ -22,7 +22,7 @@ std::optional<Iterate> escape_from(double x0, System& system, OneUnknown& p) {
   x.u = p.u;
   EXPECT_EQ(x.u.values, p.u.values);
   EXPECT_TRUE(system.linearise(x, 0.0));
-  EXPECT_EQ(system.subproblem().inertia()->negative, x0 * x0 < 1.0 / 3 ? 1 : 0);
+  EXPECT_EQ(system.subproblem().inertia(0)->negative, x0 * x0 < 1.0 / 3 ? 1 : 0);
   return escape_saddle(system, x);
 }
 

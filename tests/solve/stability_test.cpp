@@ -49,14 +49,47 @@ TEST(Stability, CountsTheHessianItselfThoughAShiftedOneIsFactorisedAtThePoint) {
   EXPECT_EQ(system.work.factorisations, 2);
 }
 
-TEST(Stability, TakesEigenvaluesThatAreZeroToRoundingForNeutral) {
-  const Stability rounding = of_diagonal(1, -5e-14), small = of_diagonal(1, -2e-13), zero = of_diagonal(1, 0);
-  EXPECT_EQ(rounding.negative, 0);
-  EXPECT_EQ(rounding.neutral, 1);
-  EXPECT_EQ(small.negative, 1);
-  EXPECT_EQ(small.neutral, 0);
-  EXPECT_EQ(zero.negative, 0);
-  EXPECT_EQ(zero.neutral, 1);
+TEST(Stability, TakesEigenvaluesThatAreZeroToRoundingForNeutralWhateverTheirSign) {
+  for (const double e : {0.0, 5e-12, -5e-12, 1e-15, -1e-15}) {
+    const Stability found = of_diagonal(1, e);
+    EXPECT_EQ(found.negative, 0) << e;
+    EXPECT_EQ(found.neutral, 1) << e;
+  }
+  for (const double e : {2e-11, -2e-11, 1e-9, -1e-9}) {
+    const Stability found = of_diagonal(1, e);
+    EXPECT_EQ(found.negative, e < 0 ? 1 : 0) << e;
+    EXPECT_EQ(found.neutral, 0) << e;
+  }
+  const Stability both = of_diagonal(-1, 3e-12);
+  EXPECT_EQ(both.negative, 1);
+  EXPECT_EQ(both.neutral, 1);
+}
+
+TEST(Stability, CostsTwoFactorisationsMoreOnlyWhereAnEigenvalueIsNearlyZero) {
+  for (const double e : {1.0, -1.0, 1e-6, 0.0}) {
+    TwoUnknowns p([=](double, double) { return Local2{0, 0, 0, 1, 0, e}; });
+    System system(*p.functional, {}, default_tuning);
+    Iterate x;
+    x.u = p.u;
+    ASSERT_TRUE(stability_at(system, x));
+    EXPECT_EQ(system.work.factorisations, e == 0 ? 3 : 1) << e;
+    EXPECT_LE(system.work.solves, e < 0 ? 12 : 4);
+  }
+}
+
+TEST(Stability, TellsALoadThatWorksAlongANeutralDirection) {
+  const auto loaded = [](double along_stiff, double along_neutral) {
+    TwoUnknowns p([=](double, double) { return Local2{0, along_stiff, along_neutral, 1, 0, 0}; });
+    System system(*p.functional, {}, default_tuning);
+    Iterate x;
+    x.u = p.u;
+    return stability_at(system, x)->loaded;
+  };
+  EXPECT_TRUE(loaded(0, 1e-3));
+  EXPECT_TRUE(loaded(1, -1));
+  EXPECT_FALSE(loaded(1, 0));
+  EXPECT_FALSE(loaded(1, 1e-3));
+  EXPECT_FALSE(loaded(0, 0));
 }
 
 TEST(Stability, IsNotKnownWhereTheHessianCannotBeEvaluated) {

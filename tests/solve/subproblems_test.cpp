@@ -126,10 +126,10 @@ TEST_P(EverySubproblem, KnownStepsCostNothingAndCanBeAcross) {
 TEST_P(EverySubproblem, KnowsTheSignsOfTheMatrixOrNothingOfThem) {
   make(spectrum(-2));
   subproblem->step(1.0, default_tuning.trial);
-  EXPECT_EQ(subproblem->inertia().value_or(Inertia{1}).negative, 1);
+  EXPECT_EQ(subproblem->inertia(0).value_or(Inertia{1}).negative, 1);
   make(spectrum(0.5));
   subproblem->step(1.0, default_tuning.trial);
-  EXPECT_EQ(subproblem->inertia().value_or(Inertia{0}).negative, 0);
+  EXPECT_EQ(subproblem->inertia(0).value_or(Inertia{0}).negative, 0);
 }
 
 TEST_P(EverySubproblem, FindsTheDirectionOfNegativeCurvature) {
@@ -155,7 +155,7 @@ TEST_P(EverySubproblem, ForgetsTheLastMatrix) {
   subproblem->set(positive, gradient, 0);
   const Step step = subproblem->step(1e3, default_tuning.newton);
   EXPECT_NEAR(step.decrease, 0.5 * d->exchange.dot(gradient, gradient), 1e-9 * step.decrease);
-  EXPECT_EQ(subproblem->inertia().value_or(Inertia{0}).negative, 0);
+  EXPECT_EQ(subproblem->inertia(0).value_or(Inertia{0}).negative, 0);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names: which may stand in files, which a user may have meant (the nearest of a list), and the half sentence that error messages end with.
+/// Names and texts for people: which names may stand in files, which a user may have meant (the nearest of a list), and the half sentence that error messages end with.
 
 #include <algorithm>
 #include <cctype>
@@ -11,6 +11,12 @@
 #include <vector>
 
 namespace karcher {
+
+/// ASCII letters only.
+inline std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 /// Edit distance with swaps of neighbours (optimal string alignment): the number of letters to insert, delete, replace or swap. Case is ignored.
 inline int edit_distance(std::string_view a, std::string_view b) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cctype>
 #include <charconv>
 #include <limits>
 #include <sstream>
@@ -121,15 +120,10 @@ void doc_term(const EnergyInfo& info) {
 }
 
 /// Prints every key whose name or text has the word. \returns false if there is none
-bool doc_search(std::string word) {
-  const auto lower = [](std::string s) {
-    for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return s;
-  };
-  word = lower(word);
+bool doc_search(const std::string& word) {
   bool found = false;
   const auto offer = [&](const std::string& page, const std::string& text) {
-    if (lower(page + " " + text).find(word) == std::string::npos) return;
+    if (lower_case(page + " " + text).find(lower_case(word)) == std::string::npos) return;
     fmt::print("{}\n", page);
     print_wrapped(text, 4);
     found = true;

@@ -56,7 +56,7 @@ int run(const RunOptions& options) {
   const std::uint64_t id = identity(problem, model);
 
   Checkpoint checkpoint;
-  Results results(problem, model, id, seconds_now(), 0);
+  Results results(problem, model, id, seconds_now());
   if (options.resume) {
     together([&] { checkpoint = read_checkpoint(results.checkpoint_file(), model.fields(), id); });
     u = checkpoint.configuration;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -84,9 +83,7 @@ int view(const ViewOptions& options) {
     if (pixels < 64 || pixels > 8192)
       throw InputError(fmt::format("A picture of {} by {} pixels cannot be made; both must be 64 to 8192.", options.width, options.height));
   for (const auto& [name, value] : options.settings) check_setting(name, value);
-  std::string ending = options.png.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (!options.png.empty() && ending != ".png")
+  if (!options.png.empty() && lower_case(options.png.extension().string()) != ".png")
     throw InputError(fmt::format("--png {}: pictures are written in the PNG format, so the file must end in .png.", options.png.string()));
   write_page(options.directory);
   const std::filesystem::path page = options.directory / "report.html";

@@ -1,7 +1,6 @@
 #include "mesh/gmsh_content.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -92,8 +91,7 @@ class Reader {
   /// The command that makes a mesh file of what this seems to be.
   std::string conversion() const {
     const std::filesystem::path path = in_.path();
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = lower_case(path.extension().string());
     const std::string from = path.filename().string(), to = path.stem().string() + (ending == ".msh" ? "-41.msh" : ".msh");
     const auto among = [&](std::initializer_list<const char*> endings) { return std::find(endings.begin(), endings.end(), ending) != endings.end(); };
     if (among({".geo", ".step", ".stp", ".brep", ".iges", ".igs"}))

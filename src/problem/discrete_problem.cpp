@@ -7,6 +7,7 @@
 #include "karcher/mesh/partition.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
 #include "karcher/mesh/refine.hpp"
+#include "karcher/mesh/seams.hpp"
 #include "karcher/problem/mesh_points.hpp"
 #include "karcher/problem/probes.hpp"
 #include "karcher/problem/reference_energy.hpp"

@@ -28,11 +28,10 @@ std::uint64_t identity(const Problem& problem, const DiscreteProblem& model) {
   return id.value();
 }
 
-Results::Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds, int last)
+Results::Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds)
     : problem_(problem),
       model_(model),
       identity_(identity),
-      last_(last),
       writer_(model.layout->rank() == 0),
       output_(output_model(problem, model)),
       start_(seconds_now() - setup_seconds) {
@@ -144,7 +143,7 @@ void Results::load_step_finished(const StepReport& report, const Configuration& 
   summary_.seconds.assembly += report.phases.assembly;
   summary_.seconds.factorisation += report.phases.factorisation;
   summary_.seconds.solve += report.phases.solve;
-  const bool last = report.status != Status::converged || report.load_step == last_ || u.t == problem_.continuation.to;
+  const bool last = report.status != Status::converged || u.t == problem_.continuation.to;
   write_state(report.load_step, u, last || report.load_step % problem_.output.every == 0);
   summary_.seconds.output += seconds_now() - begin;
   update_times();

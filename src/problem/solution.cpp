@@ -61,7 +61,7 @@ std::vector<double> Solution::value_at(int field, const Vec3<double>& x) const {
 void Solution::save(const std::filesystem::path& directory) const {
   Problem problem = *problem_;
   problem.output.directory = std::filesystem::absolute(directory).lexically_normal();
-  Results results(problem, *model_, identity(problem, *model_), 0, static_cast<int>(report_.steps.size()));
+  Results results(problem, *model_, identity(problem, *model_), 0);
   model_->functional->set_load_parameter(states_.front().t);
   results.begin(states_.front());
   std::unique_ptr<IterationsCsv> csv;

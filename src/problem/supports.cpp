@@ -7,10 +7,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <tuple>
 
-#include "karcher/mesh/incidence.hpp"
+#include "karcher/mesh/place_text.hpp"
+#include "karcher/mesh/union_find.hpp"
 #include "karcher/solve/collectives.hpp"
+#include "karcher/solve/dense.hpp"
 
 namespace karcher {
 namespace {
@@ -18,28 +19,6 @@ namespace {
 constexpr std::size_t most_sentences = 3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Sets of numbers that grow together.
-class UnionFind {
- public:
-  explicit UnionFind(int size) : parent_(at(size)) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
-    return i;
-  }
-  void join(int i, int j) { parent_[at(std::max(root(i), root(j)))] = std::min(root(i), root(j)); }
-
- private:
-  std::vector<int> parent_;
-};
-
-std::string cells_text(int n) { return fmt::format("{} cell{}", n, n == 1 ? "" : "s"); }
-
-std::string place_text(Vec3<double> x, double size) {
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(x[i]) < 1e-9 * size) x[i] = 0;
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x[0], x[1], x[2]);
-}
 
 /// "x", or "(0.6, 0.8, 0)".
 std::string direction_text(Vec3<double> v) {
@@ -49,36 +28,6 @@ std::string direction_text(Vec3<double> v) {
   const auto first = std::ranges::find_if(v.e, [](double c) { return std::abs(c) > 1e-9; });
   if (*first < 0) v = -v;
   return place_text(v, 1);
-}
-
-/// Eigenvalues in ascending order and eigenvectors, one behind the other, of a symmetric matrix of size n <= 6, by Jacobi rotations (Golub, Van Loan, section 8.5).
-struct Spectrum {
-  std::vector<double> values, vectors;
-};
-Spectrum symmetric_eigen(std::size_t n, std::vector<double> a) {
-  std::vector<double> v(n * n, 0.0);  // rows
-  for (std::size_t i = 0; i < n; ++i) v[i * n + i] = 1;
-  for (int sweep = 0; sweep < 50; ++sweep)
-    for (std::size_t p = 0; p + 1 < n; ++p)
-      for (std::size_t q = p + 1; q < n; ++q) {
-        if (a[p * n + q] == 0) continue;
-        const double theta = 0.5 * (a[q * n + q] - a[p * n + p]) / a[p * n + q];
-        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::hypot(theta, 1.0)), c = 1 / std::hypot(t, 1.0), s = t * c;
-        const auto rotate = [&](double& x, double& y) { std::tie(x, y) = std::pair(c * x - s * y, s * x + c * y); };
-        for (std::size_t k = 0; k < n; ++k) rotate(a[k * n + p], a[k * n + q]);
-        for (std::size_t k = 0; k < n; ++k) rotate(a[p * n + k], a[q * n + k]);
-        for (std::size_t k = 0; k < n; ++k) rotate(v[p * n + k], v[q * n + k]);
-        a[p * n + q] = a[q * n + p] = 0;
-      }
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i * n + i] < a[j * n + j]; });
-  Spectrum result;
-  for (const std::size_t k : order) {
-    result.values.push_back(a[k * n + k]);
-    result.vectors.insert(result.vectors.end(), v.begin() + static_cast<std::ptrdiff_t>(k * n), v.begin() + static_cast<std::ptrdiff_t>((k + 1) * n));
-  }
-  return result;
 }
 
 using Motion = std::array<double, 6>;  ///< a, and w times the size of the part
@@ -124,7 +73,7 @@ std::string motions_text(const Part& part, const std::vector<Motion>& basis) {
   std::vector<double> turns;
   for (const Motion& a : basis)
     for (const Motion& b : basis) turns.push_back(dot(turn(a), turn(b)));
-  const Spectrum s = symmetric_eigen(basis.size(), std::move(turns));
+  const Spectrum s = symmetric_eigen(static_cast<int>(basis.size()), std::move(turns));
   std::vector<Vec3<double>> moves;
   std::vector<Motion> rotations;
   for (std::size_t k = 0; k < basis.size(); ++k) {
@@ -212,7 +161,7 @@ class Body {
   const Space& space(int field) const { return *model_.fields()[at(field)].space; }
 
   void find_parts() {
-    UnionFind sets(space(field_).node_count());
+    UnionFind sets(at(space(field_).node_count()));
     const auto for_cells = [&](auto visit) {
       for (const TermSpec& term : problem_.terms)
         if (term.info.stress_free && std::find(term.fields.begin(), term.fields.end(), field_) != term.fields.end())
@@ -320,59 +269,6 @@ std::vector<std::string> free_motions(const Problem& problem, const DiscreteProb
     }
     if (found > most_sentences) sentences.push_back(fmt::format("{}so can {} further parts.", place, found - most_sentences));
   }
-  return sentences;
-}
-
-std::vector<std::string> seams(const Mesh& mesh) {
-  std::vector<std::string> sentences;
-  UnionFind sets(static_cast<int>(mesh.nodes.size()));
-  for (const Cell& c : mesh.cells)
-    for (const int n : vertices(c)) sets.join(c.nodes[0], n);
-  Vec3<double> lower = mesh.nodes.front(), upper = lower;
-  for (const Vec3<double>& x : mesh.nodes)
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], x[i]);
-      upper[i] = std::max(upper[i], x[i]);
-    }
-  const double size = std::sqrt(norm2(upper - lower));
-
-  std::map<int, Part> parts;
-  for (const Cell& c : mesh.cells) {
-    Part& part = parts[sets.root(c.nodes[0])];
-    ++part.cells;
-    for (const int n : vertices(c)) part.centre += (1.0 / vertex_count(c.kind)) * mesh.nodes[at(n)];
-  }
-  if (parts.size() > 1) {
-    std::string list;
-    std::size_t named = 0;
-    for (const auto& entry : parts)
-      if (named++ < most_sentences)
-        list += fmt::format("{}{} around {}", list.empty() ? "" : ", ", cells_text(entry.second.cells),
-                            place_text((1.0 / entry.second.cells) * entry.second.centre, size));
-    sentences.push_back(
-        fmt::format("the mesh is of {} parts that are not connected: {}{}.", parts.size(), list, named > most_sentences ? ", ..." : ""));
-  }
-
-  // Boxes of the size that counts as one place; the shift keeps round coordinates away from their walls.
-  const double box = 1e-9 * size;
-  std::vector<std::pair<std::array<double, 3>, int>> boxes;
-  boxes.reserve(mesh.nodes.size());
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    std::array<double, 3> key{};
-    for (std::size_t i = 0; i < 3; ++i) key[i] = std::floor((mesh.nodes[n][static_cast<int>(i)] - lower[static_cast<int>(i)]) / box + 0.37);
-    boxes.emplace_back(key, static_cast<int>(n));
-  }
-  std::sort(boxes.begin(), boxes.end());
-  int pairs = 0, first = -1;
-  for (std::size_t k = 1; k < boxes.size(); ++k)
-    if (boxes[k].first == boxes[k - 1].first) {
-      ++pairs;
-      first = first < 0 ? boxes[k].second : std::min(first, boxes[k].second);
-    }
-  if (pairs > 0)
-    sentences.push_back(fmt::format(
-        "{} pair{} of nodes of the mesh lie{} at the same place, the first at {}: fields are not joined there (Gmsh: Coherence Mesh joins them).",
-        pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "", place_text(mesh.nodes[at(first)], size)));
   return sentences;
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "solve/dense.hpp"
+#include "karcher/solve/dense.hpp"
 #include "solve/subproblem.hpp"
 
 namespace karcher {

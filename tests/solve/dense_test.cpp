@@ -1,4 +1,4 @@
-#include "solve/dense.hpp"
+#include "karcher/solve/dense.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "solve/dense.hpp"
+#include "karcher/solve/dense.hpp"
 #include "solve/distributed.hpp"
 #include "solve/multiply.hpp"
 #include "solve/random_matrix.hpp"

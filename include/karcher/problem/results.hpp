@@ -25,8 +25,7 @@ double seconds_now();
 /// Writes the results of load steps. Lives on all ranks; rank 0 writes.
 class Results : public Observer {
  public:
-  /// \param last number of the last load step, whose fields are always written; 0: not known beforehand
-  Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds, int last);
+  Results(const Problem& problem, const DiscreteProblem& model, std::uint64_t identity, double setup_seconds);
 
   /// A new run: the directory, which is locked and emptied of an earlier run's results, the resolved problem, and the initial configuration as state 0. Collective.
   /// \throws InputError if the directory cannot be written to or another run has it
@@ -52,7 +51,6 @@ class Results : public Observer {
   const Problem& problem_;
   const DiscreteProblem& model_;
   std::uint64_t identity_;
-  int last_;
   bool writer_;
   OutputSampler output_;
   std::optional<DirectoryLock> lock_;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a problem lacks to be held: rigid motions that no boundary condition prevents, parts that are not connected, nodes at one place.
+/// What a problem lacks to be held: rigid motions that no boundary condition prevents.
 
 #include <string>
 #include <vector>
@@ -13,8 +13,5 @@ namespace karcher {
 /// to which rotations answer by w, that no fixed component of the deformation or of a rotation prevents, and whether the loads at the end push that way. A field
 /// that another energy than a load holds, too, is passed over. Motions count from the stress-free configuration. Collective.
 std::vector<std::string> free_motions(const Problem& problem, const DiscreteProblem& model);
-
-/// Sentences about parts of the mesh that share no node, and about nodes that lie at one place (to 1e-9 of the size of the mesh) without being one node.
-std::vector<std::string> seams(const Mesh& mesh);
 
 }  // namespace karcher

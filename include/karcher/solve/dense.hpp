@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small dense problems, as they arise in a Subspace.
+/// Small dense problems: eigenvalues by LAPACK, and the trust region in a ball.
 
 #include <span>
 #include <vector>

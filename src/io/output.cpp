@@ -168,7 +168,8 @@ OutputSampler::OutputSampler(OutputModel model) : model_(std::move(model)) {
       part->measure.push_back(measure_of(reference, cell));
       part->cells.push_back({cell.kind, on_cell});
     }
-    for (Vec3<double>& n : part->normals) n = (1 / std::sqrt(norm2(n))) * n;
+    for (Vec3<double>& n : part->normals)
+      if (norm2(n) > 0) n = (1 / std::sqrt(norm2(n))) * n;
     parts_.push_back(std::move(part));
   }
 }

@@ -43,6 +43,10 @@ bool on_any_rank(bool x) {
   return all != 0;
 }
 
+void take_from_first_rank(std::span<double> values) {
+  if (world_size() > 1) MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+}
+
 std::string first_text(const std::string& text) {
   const int ranks = world_size();
   int mine = text.empty() ? ranks : world_rank(), first = mine;

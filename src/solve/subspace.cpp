@@ -65,8 +65,15 @@ bool Subspace::expand(std::vector<double> w) {
   projected_h_.insert(projected_h_.end(), column.begin(), column.end());
   projected_g_.push_back(exchange_.dot(basis_.back(), g_));
 
-  spectrum_ = symmetric_eigen(this->size(), projected_matrix());
+  spectrum_ = same_on_all_ranks(this->size(), projected_matrix());
   return true;
+}
+
+Spectrum Subspace::same_on_all_ranks(int n, std::vector<double> matrix) {
+  Spectrum spectrum = symmetric_eigen(n, std::move(matrix));
+  take_from_first_rank(spectrum.values);
+  take_from_first_rank(spectrum.vectors);
+  return spectrum;
 }
 
 std::vector<double> Subspace::projected_matrix() const {
@@ -97,7 +104,7 @@ DenseStep Subspace::minimise(double radius, std::span<const double> across) cons
     g[j] -= ag * a[j];
     for (std::size_t i = 0; i <= j; ++i) matrix[j * m + i] += (aba + trace) * a[i] * a[j] - a[i] * ba[j] - ba[i] * a[j];
   }
-  return minimise_in_ball(symmetric_eigen(static_cast<int>(m), std::move(matrix)), g, radius);
+  return minimise_in_ball(same_on_all_ranks(static_cast<int>(m), std::move(matrix)), g, radius);
 }
 
 std::vector<double> Subspace::combine(const std::vector<std::vector<double>>& vectors, std::span<const double> y) const {

@@ -30,7 +30,7 @@ class Subspace {
 
   /// Adds w, made M-orthonormal to the basis. False, and nothing is added, if that leaves less than SolverTuning::smallest_rest of w.
   bool expand(std::vector<double> w);
-  /// across: coordinates of a vector to which the minimiser is orthogonal; may be empty.
+  /// Collective. across: coordinates of a vector to which the minimiser is orthogonal; may be empty.
   DenseStep minimise(double radius, std::span<const double> across) const;
   Step step_of(DenseStep dense) const;
   /// V y and H V y; ghosts of H V y are filled, those of V y as far as the vectors of the basis had them.
@@ -41,6 +41,8 @@ class Subspace {
   std::vector<double> combine(const std::vector<std::vector<double>>& vectors, std::span<const double> y) const;
   /// V^T w
   std::vector<double> against_basis(std::span<const double> w) const;
+  /// symmetric_eigen of a matrix that all ranks have. Collective: the ranks must take the same decisions, and LAPACK may round as memory happens to lie.
+  static Spectrum same_on_all_ranks(int n, std::vector<double> matrix);
   /// The upper triangle of V^T H V, column-major.
   std::vector<double> projected_matrix() const;
 

@@ -31,6 +31,12 @@ TEST(Collectives, TheLargestNumberIsThatOfAnyRank) {
   EXPECT_EQ(max_over_ranks(-3.0 - world_rank()), -3.0);
 }
 
+TEST(Collectives, NumbersOfTheFirstRankBecomeThoseOfAll) {
+  std::vector<double> values{1.0 + world_rank(), -2.0 * world_rank()};
+  take_from_first_rank(values);
+  EXPECT_EQ(values, (std::vector<double>{1, 0}));
+}
+
 TEST(Collectives, OneRankIsEnoughForTruth) {
   for (int speaker = 0; speaker < world_size(); ++speaker) EXPECT_TRUE(on_any_rank(world_rank() == speaker));
   EXPECT_FALSE(on_any_rank(false));

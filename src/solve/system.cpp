@@ -59,7 +59,9 @@ double System::significant(const Iterate& x, std::span<const double> s) const {
   double square = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(exchange.owned_dofs()); ++d)
     square += rounding_.gradient[d] * s[d] * rounding_.gradient[d] * s[d];
-  return tuning.significant * (x.noise + rounding_.energy) + tuning.uncertain * std::sqrt(sum_over_ranks(square));
+  const double energy = x.noise / tuning.noise;
+  const double squares = sum_over_ranks(square) + 4 * energy * rounding_.energy / std::max(layout.free_dofs(), 1);
+  return tuning.significant * (x.noise + rounding_.energy) + tuning.uncertain * std::sqrt(squares);
 }
 
 Iterate System::moved(const Configuration& from, std::span<const double> step) {

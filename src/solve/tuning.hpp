@@ -13,8 +13,9 @@ struct SolverTuning {
   // What an energy can tell.
   /// noise = this * sum |e|, e the terms of the energy: some twenty roundings, since a sum over many cells loses more than one.
   double noise = 4e-15;
-  /// A step s with decrease <= significant * (noise + Rounding::energy) + uncertain * (sum_d (r_d s_d)^2)^1/2, r = Rounding::gradient, is tiny: the energy cannot
-  /// judge it, so the gradient does. The last term is what independent errors r make of the model's g.s.
+  /// A step s with decrease <= significant * (noise + R) + uncertain * (sum_d (r_d s_d)^2 + 4 E R / n)^1/2, r = Rounding::gradient, R = Rounding::energy,
+  /// E = sum |e|, n unknowns, is tiny: the energy cannot judge it, so the gradient does. The root is what independent errors make: r of the model's g.s, and errors
+  /// of strain whose own energy is R of the energy E of n strains.
   double significant = 10, uncertain = 2;
 
   // Acceptance of a trial point.

@@ -295,7 +295,8 @@ TEST(BadInput, AMeshThatDoesNotFitIntoMemoryIsRefusedBeforeItIsMade) {
   };
   for (const char* size : {"mesh.cells=[200000,200000]", "mesh.refine=20"}) refused(size, "", "more than 2.1e+09 are not numbered.");
 #ifndef __SANITIZE_ADDRESS__  // which wants 15 TB of addresses
-  for (const char* size : {"mesh.cells=[20000,20000]", "mesh.refine=14"}) refused(size, "ulimit -v 8000000;", "GB of memory; this process may have 8.19 GB.");
+  for (const char* size : {"mesh.cells=[20000,20000]", "mesh.refine=14"})
+    refused(size, "ulimit -v 8000000;", "GB of memory; this process may have 8.19 GB.");
 #endif
 }
 

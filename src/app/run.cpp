@@ -95,6 +95,7 @@ int run(const RunOptions& options) {
     if (talks) iterations = std::make_unique<IterationsCsv>(results.directory() / "iterations.csv", options.resume ? finished + 1 : 0);
   });
 
+  if (table) results.warn_with([&](const std::string& sentence) { table->line("warning: " + sentence); });
   std::vector<Observer*> listeners;
   if (table) listeners.push_back(table.get());
   if (iterations) listeners.push_back(iterations.get());

@@ -156,11 +156,7 @@ Evaluation Functional::gradient(const Configuration& u, std::span<double> g) con
 Evaluation Functional::hessian(const Configuration& u, std::span<double> g, BlockMatrix& h) const { return sum(u, Want::hessian, g, &h); }
 
 EvaluationFailure Functional::failure(Trouble trouble, std::size_t term, int cell) const {
-  const Cell& entity = terms_[term]->cell(cell);
-  const Mesh& mesh = layout_->fields().front().space->mesh();
-  Vec3<double> centre;
-  for (const int v : vertices(entity)) centre += (1.0 / vertex_count(entity.kind)) * mesh.nodes[static_cast<std::size_t>(v)];
-  return {trouble, static_cast<int>(term), terms_[term]->name(), centre};
+  return {trouble, static_cast<int>(term), terms_[term]->name(), middle(layout_->fields().front().space->mesh(), terms_[term]->cell(cell))};
 }
 
 /// The first cell whose derivatives are not finite although its energy is; where none is, a sum of finite numbers has overflowed, and the term with the largest

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "karcher/assembly/shell_kernel.hpp"
 #include "karcher/error.hpp"
@@ -105,6 +106,7 @@ class ShellTerm final : public Term {
         reference_(*input_.mesh, input_.reference_position, input_.reference_order) {
     const auto choice = input_.choices.find("coupling");
     if (choice != input_.choices.end() && choice->second == "birsan-2021") coupling_ = ShellCoupling::birsan_2021;
+    info_.quantities = {{"strain", "1", 1, "size of the strains, |E| + h/2 |E b + c K|, root mean squares over the cell", 0.2}};
     check_fields();
     std::map<CellKind, std::vector<int>> cells;
     for (std::size_t c = 0; c < input_.region.cells.size(); ++c) cells[input_.region.cells[c].kind].push_back(static_cast<int>(c));
@@ -128,18 +130,28 @@ class ShellTerm final : public Term {
   }
 
   std::vector<std::array<double, lanes_per_batch>> batch_part_energies(const Configuration& u, int b) const override {
-    const auto entries = static_cast<std::size_t>(kind(b).tables.points * shell::point_entries * W);
-    const double* first = points_.data() + first_entry_[static_cast<std::size_t>(b)];
-    AlignedVector<double> points(first, first + entries);
-    std::vector<std::array<double, lanes_per_batch>> parts(3);
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-      write_forms(b, {part == 0, part == 1, part == 2}, points.data());
-      alignas(64) std::array<double, lanes_per_batch> energy;
-      std::array<Trouble, lanes_per_batch> trouble;
-      run(u, b, Want::energy, points.data(), {energy.data(), trouble.data()});
-      parts[part] = energy;
-    }
+    std::vector<std::array<double, lanes_per_batch>> parts;
+    for (const ShellParts& part : {ShellParts{true, false, false}, {false, true, false}, {false, false, true}})
+      parts.push_back(integrals(u, b, [&](std::size_t place) {
+        return shell_form(places_[place].curvature[0], places_[place].curvature[1], material(place, {}), coupling_, part);
+      }));
     return parts;
+  }
+
+  std::vector<std::array<double, lanes_per_batch>> batch_quantities(const Configuration& u, int b) const override {
+    const auto membrane = integrals(u, b, [](std::size_t) { return strain_square<double>(); });
+    const auto bending = integrals(u, b, [&](std::size_t place) {
+      return bending_strain_square(places_[place].curvature[0], places_[place].curvature[1], material(place, {}).thickness);
+    });
+    std::array<double, lanes_per_batch> strain{};
+    for (std::size_t lane = 0; lane < lanes_per_batch; ++lane) {
+      double area = 0;
+      for (std::size_t p = 0; p < static_cast<std::size_t>(kind(b).tables.points); ++p)
+        area += places_[first_place_[static_cast<std::size_t>(b)] + p * lanes_per_batch + lane].weight;
+      const double sum = std::sqrt(membrane[lane] / area) + std::sqrt(bending[lane] / area);
+      strain[lane] = std::isfinite(sum) ? sum : std::numeric_limits<double>::quiet_NaN();
+    }
+    return {strain};
   }
 
   void set_load_parameter(double t) override {
@@ -239,6 +251,7 @@ class ShellTerm final : public Term {
     double worst = 0;
     std::string complaint;
     int indefinite = 0, first_indefinite = -1;
+    bool soft_drilling = false;
     for (int b = 0; b < batch_count(); ++b) {
       double* points = points_.data() + first_entry_[static_cast<std::size_t>(b)];
       for (int lane = 0; lane < W; ++lane) {
@@ -247,6 +260,7 @@ class ShellTerm final : public Term {
         for (int p = 0; p < kind(b).tables.points; ++p) {
           const std::size_t place = first_place_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(p * W + lane);
           const ShellMaterial<double> m = material(place, {});
+          soft_drilling = soft_drilling || (m.mu_c == 0 && m.internal_length < m.thickness);
           const auto& k = places_[place].curvature;
           const double kappa = std::fabs(k[0]) > std::fabs(k[1]) ? k[0] : k[1], product = m.thickness * std::fabs(kappa);
           if (product >= 2 && product > worst) {
@@ -267,6 +281,11 @@ class ShellTerm final : public Term {
       }
     }
     if (worst > 0) throw InputError(complaint);
+    if (soft_drilling)
+      warnings_.emplace_back(
+          "cosserat-shell: the couple modulus mu_c is 0 and L_c below the thickness, so hardly anything holds the drilling rotations, and the shell "
+          "gives way to "
+          "tension by wrinkling them. A classical shell has mu_c = mu.");
     if (indefinite > 0)
       warnings_.push_back(
           fmt::format("cosserat-shell: the shell is so thick for its curvature that the energy density is not positive definite in {} cells, the "
@@ -275,15 +294,21 @@ class ShellTerm final : public Term {
                       indefinite, at(centre(first_indefinite))));
   }
 
-  /// Writes the quadratic forms of the chosen parts at the points of batch b.
-  void write_forms(int b, ShellParts parts, double* points) const {
+  /// Integrals over the cells of batch b of the quadratic forms form(index into places_) of the strains; infinite where the interpolation is not defined.
+  template <class Form>
+  std::array<double, lanes_per_batch> integrals(const Configuration& u, int b, const Form& form) const {
+    const auto entries = static_cast<std::size_t>(kind(b).tables.points * shell::point_entries * W);
+    const double* first = points_.data() + first_entry_[static_cast<std::size_t>(b)];
+    AlignedVector<double> points(first, first + entries);
     for (int p = 0; p < kind(b).tables.points; ++p)
       for (int lane = 0; lane < W; ++lane) {
         const std::size_t place = first_place_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(p * W + lane);
-        const Place& at_point = places_[place];
-        shell::store_form(points + p * shell::point_entries * W, lane,
-                          shell_form(at_point.curvature[0], at_point.curvature[1], material(place, {}), coupling_, parts), at_point.weight);
+        shell::store_form(points.data() + p * shell::point_entries * W, lane, form(place), places_[place].weight);
       }
+    alignas(64) std::array<double, lanes_per_batch> sum;
+    std::array<Trouble, lanes_per_batch> trouble;
+    run(u, b, Want::energy, points.data(), {sum.data(), trouble.data()});
+    return sum;
   }
 
   void run(const Configuration& u, int b, Want want, const double* points, const shell::Output& out) const {

@@ -28,7 +28,7 @@ std::vector<Entry> cosserat_shell_entries() {
       {.name = "lambda", .unit = "force/length^2", .description = "first Lame parameter; 3 lambda + 2 mu > 0", .default_value = {}},
       {.name = "mu_c",
        .unit = "force/length^2",
-       .description = "Cosserat couple modulus; 0 leaves the drilling rotation to L_c, mu is a robust choice",
+       .description = "Cosserat couple modulus; mu for a classical shell; 0 leaves the drilling rotation to L_c",
        .default_value = {},
        .minimum = 0},
       {.name = "L_c",

@@ -74,6 +74,7 @@ void ConsoleTable::load_step_finished(const StepReport& report, const Configurat
   erase_transient();
   fmt::print(out_, "{} after {}, {:.2f} s. {}\n", name(report.status), counted(report.iterations, "iteration", "iterations"), report.seconds,
              report.reason);
+  for (const std::string& warning : report.warnings) fmt::print(out_, "warning: {}\n", warning);
   std::fflush(out_);
 }
 
@@ -99,6 +100,11 @@ std::string final_report(const Summary& s) {
       text += fmt::format("  {:>4} {:>10.6g} {:>14} {:>10} {:>20.12e} {:>12.4e} {:>10} {:>9.2f}\n", ++k, step.t, name(step.status), step.iterations,
                           step.energy, step.gradient_norm, step.negative_eigenvalues < 0 ? "unknown" : std::to_string(step.negative_eigenvalues),
                           step.seconds);
+    const LoadStepSummary& end = s.load_steps.back();
+    if (const auto& strain = end.largest_strain)
+      text += fmt::format("\n  {:<24} {:.3g} ({}), around ({:.4g}, {:.4g}, {:.4g})\n", "largest strain", strain->value, strain->energy,
+                          strain->place[0], strain->place[1], strain->place[2]);
+    for (const auto& [field, charge] : end.topological_charge) text += fmt::format("  {:<24} {:.10g}\n", "topological charge of " + field, charge);
     std::string probes;
     for (const auto& [probe, values] : s.load_steps.back().probes) {
       probes += fmt::format("  {:<24}", probe);

@@ -60,6 +60,10 @@ Json load_step(const LoadStepSummary& s) {
     for (const double x : values) list.push_back(number(x));
     probes[key] = std::move(list);
   }
+  Json strain = nullptr, charges = Json::object();
+  if (const auto& largest = s.largest_strain)
+    strain = {{"energy", largest->energy}, {"value", number(largest->value)}, {"place", {largest->place[0], largest->place[1], largest->place[2]}}};
+  for (const auto& [field, charge] : s.topological_charge) charges[field] = number(charge);
   return {{"t", number(s.t)},
           {"status", name(s.status)},
           {"iterations", s.iterations},
@@ -70,6 +74,9 @@ Json load_step(const LoadStepSummary& s) {
           {"probes", std::move(probes)},
           {"seconds", number(s.seconds)},
           {"reason", s.reason},
+          {"warnings", s.warnings},
+          {"largest_strain", std::move(strain)},
+          {"topological_charge", std::move(charges)},
           {"work", work(s.work)}};
 }
 
@@ -87,6 +94,12 @@ LoadStepSummary load_step(const Json& j) {
     for (const Json& x : list) s.probes[key].push_back(number(x));
   s.seconds = number(j.at("seconds"));
   s.reason = j.at("reason");
+  s.warnings = j.at("warnings").get<std::vector<std::string>>();
+  if (const Json& strain = j.at("largest_strain"); !strain.is_null()) {
+    const Json& place = strain.at("place");
+    s.largest_strain = {strain.at("energy"), number(strain.at("value")), {{place.at(0), place.at(1), place.at(2)}}};
+  }
+  for (const auto& [field, charge] : j.at("topological_charge").items()) s.topological_charge[field] = number(charge);
   s.work = work(j.at("work"));
   return s;
 }
@@ -104,6 +117,7 @@ LoadStepSummary summarize(const StepReport& report) {
   s.neutral_eigenvalues = report.neutral_eigenvalues;
   s.seconds = report.seconds;
   s.reason = report.reason;
+  s.warnings = report.warnings;
   s.work = report.work;
   return s;
 }
@@ -127,6 +141,7 @@ std::string to_json(const Summary& s) {
                   {"version", s.version},
                   {"status", name(s.status)},
                   {"reason", s.reason},
+                  {"warnings", s.warnings},
                   {"mesh", {{"cells", s.mesh.cells}, {"nodes", s.mesh.nodes}, {"order", s.mesh.order}}},
                   {"unknowns", s.unknowns},
                   {"free_unknowns", s.free_unknowns},
@@ -157,6 +172,7 @@ Summary summary_from_json(const std::string& text, const std::string& source) {
     s.version = j.at("version");
     s.status = status(j.at("status"));
     s.reason = j.at("reason");
+    s.warnings = j.at("warnings").get<std::vector<std::string>>();
     const Json& mesh = j.at("mesh");
     s.mesh.cells = mesh.at("cells");
     s.mesh.nodes = mesh.at("nodes");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "karcher/error.hpp"
+#include "karcher/mesh/incidence.hpp"
 #include "karcher/mesh/node_key.hpp"
 #include "karcher/text.hpp"
 
@@ -102,6 +103,12 @@ const Region& Mesh::region(const std::string& region_name) const {
   std::vector<std::string> names;
   for (const auto& entry : regions) names.push_back(entry.first);
   throw InputError("There is no region \"" + region_name + "\" in the mesh. " + suggestion(region_name, names, "Regions"));
+}
+
+Vec3<double> middle(const Mesh& mesh, const Cell& cell) {
+  Vec3<double> sum;
+  for (const int v : vertices(cell)) sum += (1.0 / vertex_count(cell.kind)) * mesh.nodes[static_cast<std::size_t>(v)];
+  return sum;
 }
 
 std::vector<Cell> boundary_facets(const Mesh& mesh) {

@@ -15,12 +15,6 @@ std::vector<int> key_of(const Cell& cell) {
   return key;
 }
 
-Vec3<double> centre(const Mesh& mesh, const Cell& cell) {
-  Vec3<double> c;
-  for (const int v : vertices(cell)) c += (1.0 / vertex_count(cell.kind)) * mesh.nodes[static_cast<std::size_t>(v)];
-  return c;
-}
-
 /// Own normal of the polygon of the vertices, of any length.
 Vec3<double> own_normal(const Mesh& mesh, const Cell& cell) {
   const auto x = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(cell.nodes[i])]; };
@@ -46,7 +40,7 @@ Orientation::Orientation(const Mesh& mesh, const Region& region) {
       around.containing(vertices(cell), [&](int c) { return solids.push_back(c), true; });
       boundary = boundary && solids.size() == 1;
       if (!boundary) break;
-      const Vec3<double> out = centre(mesh, cell) - centre(mesh, mesh.cells[static_cast<std::size_t>(solids.front())]);
+      const Vec3<double> out = middle(mesh, cell) - middle(mesh, mesh.cells[static_cast<std::size_t>(solids.front())]);
       outwards[key_of(cell)] = dot(own_normal(mesh, cell), out) < 0 ? -1 : 1;
     }
     if (boundary) {

@@ -13,6 +13,7 @@
 #include "karcher/problem/reference_energy.hpp"
 #include "karcher/problem/supports.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/spread.hpp"
 #include "karcher/solve/together.hpp"
 #include "problem/problem_size.hpp"
 
@@ -186,6 +187,8 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
   measure_reference(problem, m);
   for (const std::string& sentence : seams(*m.discretisation.mesh)) m.warnings.push_back(sentence);
   for (const std::string& sentence : free_motions(problem, m)) m.warnings.push_back(sentence);
+  if (const Spread spread = widest_spread(*m.layout, m.discretisation.initial); spread.ratio > Spread::wide)
+    m.warnings.push_back("initially " + spread.sentence + ".");
   return m;
 }
 

@@ -9,7 +9,9 @@
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/earlier_results.hpp"
 #include "karcher/problem/discretisation_error.hpp"
+#include "karcher/problem/largest_strain.hpp"
 #include "karcher/problem/probes.hpp"
+#include "karcher/problem/topological_charge.hpp"
 #include "karcher/solve/collectives.hpp"
 #include "karcher/solve/together.hpp"
 #include "karcher/version.hpp"
@@ -44,6 +46,7 @@ Results::Results(const Problem& problem, const DiscreteProblem& model, std::uint
   for (const Field& f : model.fields()) summary_.unknowns += static_cast<long>(f.space->node_count()) * f.manifold->dim;
   summary_.free_unknowns = model.layout->free_dofs();
   summary_.ranks = model.layout->ranks();
+  summary_.warnings = model.warnings;
   summary_.seconds.setup = setup_seconds;
 }
 
@@ -128,6 +131,18 @@ void Results::write_state(int state, const Configuration& u, bool files) {
   });
 }
 
+/// What makes the state doubtful although it may be a minimum. u: complete.
+void Results::doubt(LoadStepSummary& step, const Configuration& u, bool last) {
+  step.topological_charge = topological_charges(model_, u);
+  step.largest_strain = largest_strain(model_, u);
+  if (!step.largest_strain) return;
+  const std::string sentence = strain_warning(model_, *step.largest_strain);
+  if (sentence.empty()) return;
+  step.warnings.push_back(sentence);
+  if (warn_ && (!warned_ || last)) warn_(sentence);
+  warned_ = true;
+}
+
 void Results::update_times() { summary_.seconds.total = earlier_seconds_ + seconds_now() - start_; }
 
 void Results::load_step_finished(const StepReport& report, const Configuration& local) {
@@ -138,12 +153,13 @@ void Results::load_step_finished(const StepReport& report, const Configuration& 
   summary_.errors = errors_against_exact(problem_, model_, u);
   LoadStepSummary step = summarize(report);
   together([&] { step.probes = probe_values(problem_, model_, u); });
+  const bool last = report.status != Status::converged || u.t == problem_.continuation.to;
+  doubt(step, u, last);
   summary_.load_steps.push_back(step);
   summary_.work += report.work;
   summary_.seconds.assembly += report.phases.assembly;
   summary_.seconds.factorisation += report.phases.factorisation;
   summary_.seconds.solve += report.phases.solve;
-  const bool last = report.status != Status::converged || u.t == problem_.continuation.to;
   write_state(report.load_step, u, last || report.load_step % problem_.output.every == 0);
   summary_.seconds.output += seconds_now() - begin;
   update_times();

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "karcher/error.hpp"
+#include "karcher/solve/norm.hpp"
+#include "solve/path_watch.hpp"
 #include "solve/tuning.hpp"
 
 namespace karcher {
@@ -51,6 +53,8 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     u.t = t;
     minimizer.resume(u, start.largest_gradient);
   }
+  PathWatch path(functional.layout(), step_mass(functional.layout()), tuning);
+  path.next(u);
   while (adaptive ? t != options.to : fixed < options.steps) {
     double next = fixed + 1 == options.steps ? options.to : options.from + static_cast<double>(fixed + 1) / options.steps * range;
     if (adaptive) {
@@ -82,6 +86,8 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
       increment *= tuning.step_growth;
       if (increment / longest > 1) increment = longest;
     }
+    if (converged && !flow)
+      if (const std::string jump = path.next(u); !jump.empty()) report.warnings.push_back(jump + ".");
     if (converged && adaptive && next != options.to) report.next_increment = increment;
     result.steps.push_back(report);
     result.seconds += report.seconds;

@@ -7,6 +7,8 @@
 
 #include "karcher/error.hpp"
 #include "karcher/solve/collectives.hpp"
+#include "karcher/solve/spread.hpp"
+#include "solve/boundary.hpp"
 #include "solve/corrections.hpp"
 #include "solve/predictor.hpp"
 #include "solve/radius.hpp"
@@ -56,6 +58,9 @@ struct Minimizer::State {
   void stop(Status status, std::string reason) {
     report.status = status;
     report.reason = std::move(reason);
+  }
+  void warn(const std::string& sentence) {
+    if (!sentence.empty()) report.warnings.push_back(sentence + ".");
   }
   void tell(const IterationRecord& record) {
     for (Observer* o : observers) o->iteration(record);
@@ -107,7 +112,10 @@ bool Minimizer::State::end(const std::string& test) {
       return false;
     }
   }
-  stop(Status::converged, fmt::format("{}; the point is {}.", test, stability->kind()));
+  std::string kind = "the point is " + stability->kind();
+  if (const Spread spread = widest_spread(system.layout, current.u); spread.ratio >= Spread::opposite)
+    kind = fmt::format("whether the point is a minimum cannot be told: {}, so the interpolation is not determined there", spread.sentence);
+  stop(Status::converged, fmt::format("{}; {}.", test, kind));
   return true;
 }
 
@@ -222,6 +230,7 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
   s.report.load_step = task.load_step;
   s.report.t = u.t;
 
+  if (task.boundary) s.warn(far_turn(s.system.layout, u, *task.boundary));
   s.start(u);
   if (!s.current.ok())
     s.stop(Status::failed, "The energy at the start of the load step is not defined: " + s.current.failure);
@@ -235,6 +244,8 @@ StepReport Minimizer::run(Configuration& u, const Task& task, std::span<Observer
                                      stability->neutral, stability->neutral == 1 ? " is" : "s are");
   }
 
+  if (const Spread spread = widest_spread(s.system.layout, s.current.u); spread.ratio > Spread::wide)
+    s.warn(spread.sentence + ": the mesh is too coarse for the map there, or its data jump");
   u.values.swap(s.current.u.values);
   s.current.u.values.clear();
   s.report.energy = s.current.energy;

@@ -88,6 +88,8 @@ struct SolverTuning {
   int probes = 6, probes_per_direction = 2, most_probes = 16;  ///< solves of a search: min(probes + probes_per_direction * negative, most_probes)
   double settled = 1.1;                                        ///< a lowest Ritz value > this * the last one (both negative) has settled
 
+  double jump = 10;  ///< see PathWatch
+
   // Load steps (run_continuation with adaptive steps).
   int few_iterations = 5;        ///< a load step of <= this many iterations is followed by
   double step_growth = 2;        ///< one this times as long (at most the length asked for)

@@ -369,10 +369,10 @@ TEST(ShellTerm, WarnsWhereTheDensityIsNotPositiveDefinite) {
   Shell thin(mesh_of("sphere", {{"radius", {1}}, {"order", {2}}}), 2, 2);
   thin.input.parameters["mu_c"] = 0.0;
   EXPECT_TRUE(thin.make().warnings().empty());
-  // With mu_c = 0 the twisting block loses a positive eigenvalue at about h kappa = 1.4 where the curvatures are as 1 to 2.
+  // As mu_c falls to 0 the twisting block loses a positive eigenvalue at about h kappa = 1.4 where the curvatures are as 1 to 2.
   Shell bowl(mesh_of("rectangle", {{"lower", {-0.01, -0.01}}, {"size", {0.02, 0.02}}, {"cells", {2, 2}}}), 2, 2);
   bowl.input.reference_position = [](const Point3& x) { return Point3{{x[0], x[1], 0.27 * x[0] * x[0] + 0.5 * x[1] * x[1]}}; };
-  bowl.input.parameters["mu_c"] = 0.0;
+  bowl.input.parameters["mu_c"] = 1e-12;
   bowl.input.parameters["L_c"] = 1e-3;
   bowl.input.parameters["thickness"] = 1.0;
   EXPECT_TRUE(bowl.make().warnings().empty());
@@ -380,6 +380,40 @@ TEST(ShellTerm, WarnsWhereTheDensityIsNotPositiveDefinite) {
   bowl.make();
   ASSERT_EQ(bowl.term->warnings().size(), 1u);
   EXPECT_NE(bowl.term->warnings()[0].find("not positive definite in 8 cells"), std::string::npos) << bowl.term->warnings()[0];
+}
+
+TEST(ShellTerm, WarnsWhereHardlyAnythingHoldsTheDrillingRotation) {
+  Shell s(mesh_of("rectangle", {}), 1, 1);
+  s.input.parameters["mu_c"] = 0.0;
+  EXPECT_TRUE(s.make().warnings().empty());  // L_c is twice the thickness
+  s.input.parameters["L_c"] = 0.005;
+  ASSERT_EQ(s.make().warnings().size(), 1u);
+  EXPECT_NE(s.term->warnings()[0].find("A classical shell has mu_c = mu."), std::string::npos) << s.term->warnings()[0];
+}
+
+TEST(ShellTerm, TellsTheStrainsOfStretchingAndOfBending) {
+  constexpr double h = 0.02, R = 0.5;
+  Shell s(mesh_of("rectangle", {{"cells", {8, 2}}}), 3, 3);
+  s.input.parameters["thickness"] = h;
+  const Term& term = s.make();
+  ASSERT_EQ(term.info().quantities.size(), 1u);
+  const auto strains = [&] {
+    std::vector<double> all;
+    for (int b = 0; b < term.batch_count(); ++b)
+      for (int lane = 0; lane < term.batch(b).cells_used; ++lane) all.push_back(term.batch_quantities(s.u, b)[0][static_cast<std::size_t>(lane)]);
+    return all;
+  };
+  s.set([](const Point3& x) { return Point3{{1.1 * x[0], 0.8 * x[1], 0.0}}; }, [](const Point3&) { return Point3{}; });
+  for (const double strain : strains()) EXPECT_NEAR(strain, std::hypot(0.1, 0.2), 1e-14);
+  // Rolled up to a cylinder, the faces are strained by h / (2 R).
+  s.set(
+      [](const Point3& x) {
+        return Point3{{R * std::sin(x[0] / R), x[1], R * (1 - std::cos(x[0] / R))}};
+      },
+      [](const Point3& x) {
+        return Point3{{0, -x[0] / R, 0}};
+      });
+  for (const double strain : strains()) EXPECT_NEAR(strain, 0.5 * h / R, 1e-4);
 }
 
 TEST(ShellTerm, RefusesDataThatMakeNoSense) {

@@ -178,6 +178,26 @@ ShellForm<T> shell_form(const T& k1, const T& k2, const ShellMaterial<T>& materi
   return f;
 }
 
+/// |E|^2 as a form.
+template <class T>
+ShellForm<T> strain_square() {
+  ShellForm<T> f;
+  f.a[f.index(0, 0)] = f.a[f.index(1, 1)] = f.b[f.index(0, 0)] = f.b[f.index(1, 1)] = f.s[0] = f.s[1] = T(2.0);
+  return f;
+}
+
+/// |h/2 (E b + c K)|^2 as a form: the square of the strains that bending makes at the two faces of the shell, h/2 away from the surface.
+template <class T>
+ShellForm<T> bending_strain_square(const T& k1, const T& k2, const T& thickness) {
+  const T f = T(0.5) * thickness * thickness;  // 2 (h/2)^2
+  ShellForm<T> form;
+  // S11 = k1 E11 + K21, S22 = k2 E22 - K12; S12 = k2 E12 + K22, S21 = k1 E21 - K11; S31 = k1 E31, S32 = k2 E32
+  form.a = {f * k1 * k1, T(0.0), f * k1, T(0.0), f * k2 * k2, T(0.0), -(f * k2), f, T(0.0), f};
+  form.b = {f * k2 * k2, T(0.0), f * k2, T(0.0), f * k1 * k1, T(0.0), -(f * k1), f, T(0.0), f};
+  form.s = {f * k1 * k1, f * k2 * k2, T(0.0), T(0.0)};
+  return form;
+}
+
 /// The same density of a deformation and a rotation field (unit quaternions), for the generic kernel: an independent way to what the closed-form kernel computes.
 /// Parameters: h, mu, lambda, mu_c, L_c, b1, b2, b3.
 template <class P>

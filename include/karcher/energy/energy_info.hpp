@@ -3,6 +3,7 @@
 /// EnergyInfo: what an energy or a load takes and tells, one table that the problem-file reader, `karcher doc`, output and library users share.
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,8 @@ struct QuantityInfo {
   std::string unit;  ///< in consistent units
   int components = 1;
   std::string description;  ///< a few words, for legends
+  /// A strain: where it is larger than this, the energy is used outside of what it is made for; infinite for all else.
+  double small_up_to = std::numeric_limits<double>::infinity();
 };
 
 /// What a term of a functional tells of itself.

@@ -7,16 +7,25 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "karcher/math/tensor.hpp"
 #include "karcher/solve/report.hpp"
 
 namespace karcher {
 
 /// Energies of the terms in the order of the problem file.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+/// The largest strain of an energy that is made for small ones (QuantityInfo::small_up_to).
+struct LargestStrain {
+  std::string energy;
+  double value = 0;
+  Vec3<double> place{};  ///< middle of the cell, on the mesh
+};
 
 struct LoadStepSummary {
   double t = 0;
@@ -28,6 +37,9 @@ struct LoadStepSummary {
   std::map<std::string, std::vector<double>> probes;
   double seconds = 0;
   std::string reason;  ///< one sentence
+  std::vector<std::string> warnings;
+  std::optional<LargestStrain> largest_strain;
+  std::map<std::string, double> topological_charge;  ///< by field
   WorkCounts work;
 };
 
@@ -51,9 +63,10 @@ struct Summary {
   struct {
     double total = 0, assembly = 0, factorisation = 0, solve = 0, output = 0, setup = 0;
   } seconds;
-  double peak_memory_mb = 0;  ///< sum over the ranks
-  std::string reason;         ///< one sentence: what was reached
-  WorkCounts work;            ///< over all load steps
+  double peak_memory_mb = 0;          ///< sum over the ranks
+  std::string reason;                 ///< one sentence: what was reached
+  std::vector<std::string> warnings;  ///< about the problem and its start; those about results are with their load step
+  WorkCounts work;                    ///< over all load steps
 };
 
 /// A finished load step as the summary tells it; probes are added by the caller.

@@ -38,6 +38,8 @@ struct ManifoldOps {
   void (*exp)(const double* p, const double* a, double* q) = nullptr;      ///< ambient tangent vector a
   void (*log)(const double* p, const double* q, double* a) = nullptr;
   double (*dist)(const double* p, const double* q) = nullptr;
+  double (*cut_ratio)(const double* p,
+                      const double* q) = nullptr;  ///< of dist and the distance at which there is another shortest geodesic; 0: there is none
   double (*inner)(const double* p, const double* a, const double* b) = nullptr;
 
   // Tangent coordinates.
@@ -126,6 +128,7 @@ const ManifoldOps& manifold_ops() {
       .exp = [](const double* p, const double* a, double* q) { d::write(M::exp(d::read<n>(p), d::read<n>(a)).e, q); },
       .log = [](const double* p, const double* q, double* a) { d::write(M::log(d::read<n>(p), d::read<n>(q)).e, a); },
       .dist = [](const double* p, const double* q) { return distance<M>(d::read<n>(p), d::read<n>(q)); },
+      .cut_ratio = [](const double* p, const double* q) { return karcher::cut_ratio<M>(d::read<n>(p), d::read<n>(q)); },
       .inner = [](const double* p, const double* a, const double* b) -> double { return M::inner(d::read<n>(p), d::read<n>(a), d::read<n>(b)); },
       .lengths = std::vector<bool>(lengths.begin(), lengths.end()),
       .body_axes = has_body_axes<M>(),

@@ -94,6 +94,11 @@ struct Product {
   static Vec<T, ambient> log(const Vec<T, ambient>& p, const Vec<T, ambient>& q) {
     return by_factor<T>([&]<class F, std::size_t I>() { return F::log(factor<I>(p), factor<I>(q)); });
   }
+  /// A geodesic is the only shortest one where those of all factors are.
+  static double cut_ratio(const Vec<double, ambient>& p, const Vec<double, ambient>& q) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) { return std::max({karcher::cut_ratio<M>(factor<I>(p), factor<I>(q))...}); }
+    (std::index_sequence_for<M...>{});
+  }
   template <class T>
   static T inner(const Vec<T, ambient>& p, const Vec<T, ambient>& a, const Vec<T, ambient>& b) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) { return (M::inner(factor<I>(p), factor<I>(a), factor<I>(b)) + ...); }

@@ -9,6 +9,7 @@
 /// M::lengths              std::array<bool, dim>: whether a tangent coordinate is a length, as coordinates of R^n are (and all of a linear type), or free of units,
 ///                         as angles are. Steps in lengths are measured by the size of the mesh
 /// M::body_axes            true: the tangent coordinates are the rotation vector of a body, about its three axes, and one axis may be left free
+/// M::cut_ratio(p, q)      at double: how near q is to where no shortest geodesic from p is the only one, 1 there; else dist(p, q) / injectivity_radius
 /// M::make_point(x, p)     at double: p from ambient data x that are a point up to rounding; false where they are not. Else project(x), else exp_x(0)
 /// M::standard_point()     at double: the value of a field that is given none; else M::origin(), else 0 for linear types
 /// M::has_identity         true: problem files may call the standard point "identity"
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +72,16 @@ constexpr bool has_body_axes() {
   } else {
     return false;
   }
+}
+
+template <class M>
+double cut_ratio(const Point<M>& p, const Point<M>& q) {
+  if constexpr (requires { M::cut_ratio(p, q); })
+    return M::cut_ratio(p, q);
+  else if constexpr (M::injectivity_radius < std::numeric_limits<double>::infinity())
+    return distance<M>(p, q) / M::injectivity_radius;
+  else
+    return 0;
 }
 
 template <class M>

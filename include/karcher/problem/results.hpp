@@ -2,6 +2,7 @@
 /// \file
 /// What a run leaves behind while it goes on: table, iterations.csv, fields, summary, checkpoint.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,6 +34,8 @@ class Results : public Observer {
   /// Goes on after the load steps of a checkpoint. Collective.
   void resume(const Checkpoint& checkpoint);
   void load_step_finished(const StepReport& report, const Configuration& u) override;
+  /// Where sentences about doubtful results go besides the summary; each is said at the first load step and at the last one that it is true of.
+  void warn_with(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
   /// The last summary and the page. \param status of the whole run
   void finish(Status status, const std::string& reason);
 
@@ -46,6 +49,7 @@ class Results : public Observer {
  private:
   void write_state(int state, const Configuration& u, bool files);
   void measure(const Configuration& u);
+  void doubt(LoadStepSummary& step, const Configuration& u, bool last);
   void update_times();
 
   const Problem& problem_;
@@ -55,6 +59,8 @@ class Results : public Observer {
   OutputSampler output_;
   std::optional<DirectoryLock> lock_;
   std::string replaced_, page_trouble_;
+  std::function<void(const std::string&)> warn_;
+  bool warned_ = false;  ///< of strains
   std::optional<ProbesCsv> probes_;
   std::optional<VtuSeries> vtu_;
   std::optional<PageStates> page_;

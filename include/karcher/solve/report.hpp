@@ -40,7 +40,8 @@ struct StepReport {
   int load_step = 0;  ///< from 1 in a sequence of load steps
   double t = 0;
   Status status = Status::failed;
-  std::string reason;  ///< one sentence: which test ended it, its value and threshold; whether it is a local minimum
+  std::string reason;                 ///< one sentence: which test ended it, its value and threshold; whether it is a local minimum
+  std::vector<std::string> warnings;  ///< sentences about what makes the result doubtful
   int iterations = 0;
   double energy = 0;
   std::vector<double> energies;  ///< one per term of the functional

@@ -1,0 +1,53 @@
+#include "solve/path_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "karcher/solve/norm.hpp"
+#include "solve/cell_functions.hpp"
+
+namespace karcher {
+namespace {
+
+using testing::SmallProblem;
+
+testing::CellValue nothing(const std::vector<const double*>&, const Vec3<double>&, double, double*, double*) { return {}; }
+
+/// The loads t at which the watch speaks on the path x u(t), x the place on [0, 2].
+std::vector<double> told(const std::vector<double>& loads, const std::function<double(double)>& u) {
+  SmallProblem p(2, manifold_by_name("R1"), nothing, {0, 0, 0});
+  PathWatch watch(*p.layout, step_mass(*p.layout), default_tuning);
+  std::vector<double> result;
+  for (const double t : loads) {
+    p.u.t = t;
+    for (const int node : p.layout->local_nodes(0)) p.u.values[0][static_cast<std::size_t>(node)] = p.field.space->position(node)[0] * u(t);
+    if (!watch.next(p.u).empty()) result.push_back(t);
+  }
+  return result;
+}
+
+const std::vector<double> even{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+
+TEST(PathWatch, TellsAJumpOnce) {
+  EXPECT_EQ(told(even, [](double t) { return t + 0.05 * t * t + (t > 5.5 ? 40 : 0); }), std::vector<double>{6});
+}
+
+TEST(PathWatch, TellsEveryOfTwoJumps) {
+  EXPECT_EQ(told(even, [](double t) { return t + 0.05 * t * t + (t > 3.5 ? 40 : 0) + (t > 7.5 ? 40 : 0); }), (std::vector<double>{4, 8}));
+}
+
+TEST(PathWatch, IsSilentOnSmoothPathsThatBend) {
+  EXPECT_TRUE(told(even, [](double t) { return 3 * t; }).empty());
+  EXPECT_TRUE(told(even, [](double t) { return std::sin(t); }).empty());
+  EXPECT_TRUE(told(even, [](double t) { return std::exp(0.5 * t); }).empty());
+  EXPECT_TRUE(told(even, [](double t) { return std::sqrt(11 - t); }).empty());  // steep before a limit point
+}
+
+TEST(PathWatch, IsSilentWhereLoadStepsAreUneven) {
+  EXPECT_TRUE(told({0, 0.1, 0.2, 1.2, 1.3, 3.3, 3.4, 3.5, 5.5}, [](double t) { return t * t; }).empty());
+}
+
+}  // namespace
+}  // namespace karcher

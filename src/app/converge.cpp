@@ -218,7 +218,7 @@ Status solve(const Problem& problem, DiscreteProblem& model, Configuration& u, b
     continuation.steps = 1;
     continuation.adaptive = false;
   }
-  return run_continuation(*model.functional, u, boundary_values(model), continuation, problem.solver, {}).status;
+  return run_continuation(*model.functional, u, boundary_values(model), continuation, problem.solver, {}, {}, changing_supports(model)).status;
 }
 
 }  // namespace
@@ -250,7 +250,9 @@ int converge(const ConvergeOptions& options) {
     for (const Field& f : level.fields) level.unknowns += static_cast<long>(f.space->node_count()) * f.manifold->dim;
     if (talks && isatty(STDERR_FILENO)) fmt::print(stderr, "level {}: {} unknowns\n", k, level.unknowns);
     level.u = model.discretisation.initial;
-    const bool prolonged = solves && k > 0 && options.start == "prolonged";
+    // Where supports change, the solution depends on the way there.
+    const bool same_supports = model.discretisation.constraints.phases().size() == 1;
+    const bool prolonged = solves && k > 0 && options.start == "prolonged" && same_supports;
     if (!prolonged) require_energy(problem, model);
     if (prolonged) prolong(levels, model.discretisation.constraints, level.u);
     Status reached = Status::converged;

@@ -10,6 +10,7 @@
 #include "app/read_terms.hpp"
 #include "app/schema.hpp"
 #include "app/section.hpp"
+#include "app/time_series.hpp"
 #include "karcher/mesh/generators.hpp"
 #include "karcher/mesh/gmsh.hpp"
 #include "karcher/mesh/quadrature.hpp"
@@ -106,8 +107,19 @@ class Reader {
     const Value* v = find("parameters");
     if (!v) return;
     if (!v->is(Value::Kind::table)) refuse(v->place, "parameters must be a table, not " + v->kind_name() + ".");
-    for (const Entry& e : v->entries) problem_.scope.define(e.key, expression_of(e.value, "parameters." + e.key, problem_.scope), e.place);
-    note("parameters", *v);
+    Value all = *v;
+    // Series need no other parameter, and tables come last in problem.resolved.toml.
+    for (Entry& e : all.entries)
+      if (e.value.is(Value::Kind::table)) {
+        Section s(&e.value, "parameters." + e.key, e.value.place, section_info("parameters").keys);
+        series_.push_back(read_time_series(s, problem_.file.parent_path(), problem_.scope));
+        problem_.scope.define(e.key, series_.back().value, e.place);
+        problem_.identity.push_back(series_.back().content);
+        e.value = s.resolved();
+      }
+    for (const Entry& e : v->entries)
+      if (!e.value.is(Value::Kind::table)) problem_.scope.define(e.key, expression_of(e.value, "parameters." + e.key, problem_.scope), e.place);
+    note("parameters", all);
   }
 
   void mesh(const Section& top) {
@@ -131,9 +143,11 @@ class Reader {
       spec.place = s.place("file");
       const Path given = s.text("file");
       const Path file = (given.is_absolute() ? given : problem_.file.parent_path() / given).lexically_normal();
-      spec.make = [file] { return read_gmsh(file.string()); };
+      const PeriodicSides sides = s.flag("periodic") ? PeriodicSides::joined : PeriodicSides::apart;
+      spec.make = [file, sides] { return read_gmsh(file.string(), sides); };
       s.note("file", Value::of(file.string()));
     } else {
+      if (s.has("periodic")) refuse(s.place("periodic"), "mesh.periodic is for mesh files; generators close their surfaces themselves.");
       GeneratorOptions generator{s.text("generate"), {}, {}};
       for (const GeneratorArgument& a : info->arguments) generator_argument(s, a, generator);
       spec.make = [generator] { return karcher::generate(generator); };
@@ -295,37 +309,117 @@ class Reader {
   }
 
   void read_dirichlet(Section& s) {
-    DirichletSpec& spec = problem_.dirichlet.emplace_back();
+    const std::vector<std::string> ways{"value", "support", "symmetry", "diaphragm"};
+    std::string way;
+    for (const std::string& key : ways) {
+      if (!s.has(key)) continue;
+      if (!way.empty()) refuse(s.place(key), fmt::format("{} has both \"{}\" and \"{}\"; one of them is meant.", s.path(), way, key));
+      way = key;
+    }
+    if (way.empty()) refuse(s.place(), s.path() + " lacks the key \"value\" (or one of support, symmetry, diaphragm).");
+    DirichletSpec spec;
     spec.path = s.path();
     spec.place = s.place();
-    spec.field = field_index(s.text("field"), s.place("field"));
+    if (way == "value" || s.has("field")) spec.field = field_index(s.text("field"), s.place("field"));
     spec.on = s.text("on");
     spec.on_place = s.place("on");
+    if (s.has("from")) spec.from = s.constant("from", problem_.scope);
+    if (s.has("to")) spec.to = s.constant("to", problem_.scope);
+    if (way == "value")
+      read_value(s, spec);
+    else
+      read_support(s, way, spec);
+  }
+
+  void read_value(Section& s, DirichletSpec spec) {
     const ManifoldOps& m = *problem_.fields[static_cast<std::size_t>(spec.field)].manifold;
     const Value* v = s.raw("value");
-    if (!v) s.missing("value");
     const std::string key = s.path("value");
     using Component = DirichletSpec::Component;
-    if (v->is(Value::Kind::text) && v->text == "initial") {
-      spec.components.assign(static_cast<std::size_t>(m.dim), Component::initial);
+    if (v->is(Value::Kind::text) && (v->text == "initial" || v->text == "current")) {
+      spec.components.assign(static_cast<std::size_t>(m.dim), v->text == "initial" ? Component::initial : Component::current);
     } else if (v->is(Value::Kind::text) && v->text == "exact") {
       const auto known = problem_.exact_values.find(spec.field);
       if (known == problem_.exact_values.end()) refuse(v->place, key + " is \"exact\", but the field has no [exact] value.");
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
       spec.value = m.linear ? of_components(spec.components, known->second.entries()) : known->second.function();
     } else if (v->is(Value::Kind::table)) {
-      spec.components = axis_free(*v, key, m);
+      spec.components = axis_free(*v, key, m, s.has("from") ? Component::current : Component::initial);
     } else if (m.linear) {
       linear_components(spec, *v, key, m);
     } else {
       if (v->is(Value::Kind::array))
         for (const Value& item : v->items)
-          if (item.is(Value::Kind::text) && (item.text == "free" || item.text == "initial"))
+          if (component_word(item))
             refuse(item.place, key + ": components of a point of " + m.name + " cannot be \"" + item.text + "\"; fix the whole point" +
                                    (m.body_axes ? ", or leave an axis free: value = {axis-free = \"e3\"}." : "."));
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
       spec.value = PointValue(*v, key, m, problem_.scope).function();
     }
+    problem_.dirichlet.push_back(std::move(spec));
+  }
+
+  /// A support in a word: what it holds of the deformation and of the rotations that share an energy with it (docs/supports.md).
+  void read_support(Section& s, const std::string& way, const DirichletSpec& entry) {
+    using Component = DirichletSpec::Component;
+    const std::string word = s.word(way);
+    const bool clamped = way == "support" && word == "clamped", symmetry = way == "symmetry";
+    const int axis = way == "support" ? -1 : word.front() - 'x';
+    if (symmetry && s.has("from"))
+      refuse(s.place("from"), s.path() + ": a plane of symmetry cannot set in: a body that is bent has no mirror image there.");
+    // What is there when the support sets in is held: the initial values where it holds from the start.
+    const Component kept = s.has("from") ? Component::current : Component::initial;
+    std::vector<int> fields{entry.field};
+    if (!s.has("field")) fields = supported_fields();
+    if (fields.empty())
+      refuse(s.place(way), fmt::format("{}: no energy has a deformation that could be held; write \"field\" and \"value\".", s.path(way)));
+    for (const int f : fields) {
+      const ManifoldOps& m = *problem_.fields[static_cast<std::size_t>(f)].manifold;
+      const std::string& name = problem_.fields[static_cast<std::size_t>(f)].name;
+      DirichletSpec spec = entry;
+      spec.field = f;
+      spec.normal = axis;
+      spec.components.assign(static_cast<std::size_t>(m.dim), kept);
+      if (m.linear && axis >= m.dim) refuse(s.place(way), fmt::format("{}: the field \"{}\" has no component along {}.", s.path(way), name, word));
+      if (m.linear && !clamped && axis >= 0)
+        for (int i = 0; i < m.dim; ++i)
+          if ((i == axis) != symmetry) spec.components[static_cast<std::size_t>(i)] = Component::free;
+      if (!m.linear && !clamped && !symmetry) {
+        if (s.has("field"))
+          refuse(s.place("field"), fmt::format("{}: a {} support leaves the field \"{}\" free.", s.path(way), way == "support" ? word : way, name));
+        continue;
+      }
+      if (!m.linear && symmetry && !m.body_axes)
+        refuse(s.place(way),
+               fmt::format("{}: what a plane of symmetry means for the field \"{}\" with values in {} is not known; write \"field\" and \"value\".",
+                           s.path(way), name, m.name));
+      // A rotation may live on a part of the body only.
+      spec.may_be_absent = !m.linear && !s.has("field");
+      problem_.dirichlet.push_back(std::move(spec));
+    }
+  }
+
+  /// The deformations, and the fields that share an energy with one and are no positions.
+  std::vector<int> supported_fields() const {
+    std::vector<int> fields;
+    for (int f = 0; f < static_cast<int>(problem_.fields.size()); ++f) {
+      const bool linear = problem_.fields[static_cast<std::size_t>(f)].manifold->linear;
+      const bool goes_along = std::any_of(problem_.terms.begin(), problem_.terms.end(), [&](const TermSpec& t) {
+        const bool has = std::find(t.fields.begin(), t.fields.end(), f) != t.fields.end();
+        return has && std::any_of(t.fields.begin(), t.fields.end(), [&](int g) { return is_deformation(g); });
+      });
+      if (linear ? is_deformation(f) : goes_along) fields.push_back(f);
+    }
+    return fields;
+  }
+
+  static std::optional<DirichletSpec::Component> component_word(const Value& v) {
+    using Component = DirichletSpec::Component;
+    if (!v.is(Value::Kind::text)) return {};
+    return v.text == "free"      ? std::optional(Component::free)
+           : v.text == "initial" ? std::optional(Component::initial)
+           : v.text == "current" ? std::optional(Component::current)
+                                 : std::nullopt;
   }
 
   void linear_components(DirichletSpec& spec, const Value& v, const std::string& key, const ManifoldOps& m) {
@@ -337,8 +431,8 @@ class Reader {
     std::vector<Expression> entries;
     for (std::size_t i = 0; i < count; ++i) {
       const Value& item = array ? v.items[i] : v;
-      const bool word = item.is(Value::Kind::text) && (item.text == "free" || item.text == "initial");
-      spec.components.push_back(!word ? Component::value : item.text == "free" ? Component::free : Component::initial);
+      const std::optional<Component> word = component_word(item);
+      spec.components.push_back(word.value_or(Component::value));
       entries.push_back(word ? Expression(0.0) : expression_of(item, array ? fmt::format("{}.{}", key, i) : key, problem_.scope));
     }
     if (std::all_of(spec.components.begin(), spec.components.end(), [](Component c) { return c == Component::free; }))
@@ -359,13 +453,12 @@ class Reader {
   }
 
   /// Tangent coordinates are the body rotation vector: with the axis e_k of the body free, a step turns about d_k, which stays where it is.
-  std::vector<DirichletSpec::Component> axis_free(const Value& v, const std::string& key, const ManifoldOps& m) const {
-    using Component = DirichletSpec::Component;
+  std::vector<DirichletSpec::Component> axis_free(const Value& v, const std::string& key, const ManifoldOps& m, DirichletSpec::Component kept) const {
     Section s(&v, key, v.place, {{.name = "axis-free", .kind = KeyKind::word, .words = {"e1", "e2", "e3"}}});
     const std::string axis = s.word("axis-free");
     if (!m.body_axes) refuse(v.place, key + ": axis-free is for rotations (SO3), not for " + m.name + ".");
-    std::vector<Component> components(3, Component::initial);
-    components[static_cast<std::size_t>(axis[1] - '1')] = Component::free;
+    std::vector components(3, kept);
+    components[static_cast<std::size_t>(axis[1] - '1')] = DirichletSpec::Component::free;
     return components;
   }
 
@@ -378,6 +471,7 @@ class Reader {
     c.adaptive = s.flag("adaptive");
     c.smallest = s.number("smallest");
     for (const std::string& sentence : c.validate()) refuse(s.place(), "continuation: " + sentence);
+    for (const TimeSeries& series : series_) require_range(series, c.from, c.to);
     note(s);
   }
 
@@ -476,6 +570,7 @@ class Reader {
   ReadOptions options_;
   Value root_;
   ProblemFile problem_;
+  std::vector<TimeSeries> series_;
   std::vector<Section> field_sections_;
   Value exact_resolved_;
   int mesh_order_ = 0;  ///< 0: not known yet

@@ -100,7 +100,8 @@ int run(const RunOptions& options) {
   if (table) listeners.push_back(table.get());
   if (iterations) listeners.push_back(iterations.get());
   listeners.push_back(&results);
-  const ContinuationReport report = run_continuation(*model.functional, u, boundary_values(model), loads, problem.solver, listeners, start);
+  const ContinuationReport report =
+      run_continuation(*model.functional, u, boundary_values(model), loads, problem.solver, listeners, start, changing_supports(model));
 
   results.finish(report.status, outcome(report, finished, last));
   if (!results.page_trouble().empty()) fmt::print(stderr, "warning: there is no page: {} karcher view makes it.\n", results.page_trouble());

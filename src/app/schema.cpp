@@ -115,13 +115,18 @@ std::vector<SectionInfo> make_schema() {
       {"parameters",
        "[parameters]",
        "Named numbers or expressions, evaluated in the order of the file; a parameter may use earlier ones, and also x, y, z and t. --set "
-       "parameters.L=2 (or --set L=2) overrides one.",
-       {}},
+       "parameters.L=2 (or --set L=2) overrides one. A table is a series in "
+       "time, the column of a CSV file, piecewise linear in t between its lines.",
+       {text("csv", "path", required,
+             "file with a line of names and lines of numbers, separated by commas (# begins a comment); relative to the problem file"),
+        text("column", "string", required, "name of the column with the values"),
+        text("time", "string", "t", "name of the column with t, which increases")}},
       {"mesh",
        "[mesh]",
        "A file or a generator. Generators and their arguments: karcher doc mesh.generate",
        {text("file", "path", required, "Gmsh MSH 2.2 or 4.1, ASCII or binary, cells of order 1 to 3; relative to the problem file"),
         text("generate", "name", required, "a generator instead of a file; its arguments are further keys of this table"),
+        flag("periodic", true, "of a file: the nodes that its section $Periodic pairs are one node for fields"),
         integer("refine", mesh.refine, 0, 20, "uniform refinements; generated curved surfaces refine onto the exact surface")}},
       {"regions",
        "[regions.NAME]",
@@ -157,11 +162,22 @@ std::vector<SectionInfo> make_schema() {
       {"dirichlet",
        "[[dirichlet]]",
        "Fixes a field on a region; values may depend on t and are set anew for every load step.",
-       {text("field", "name", required, "the field"), text("on", "region", required, "where"),
-        point(
-            "value", "point", required,
-            "as `initial` of a field; in R^n also \"free\" or \"initial\" for a component; \"initial\" fixes the initial value; {axis-free = \"e3\"} "
-            "(SO3) fixes the director d_3 of the initial rotation and leaves the rotation about it free (also e1, e2: axes of the body)")}},
+       {text("field", "name", described("must be given; with a word for a support: the deformation and its rotation"), "the field"),
+        text("on", "region", required, "where"),
+        point("value", "point", described("must be given, or one of the next three"),
+              "as `initial` of a field; in R^n also \"free\", \"initial\" or \"current\" for a component; \"initial\" fixes the initial value, "
+              "\"current\" the one "
+              "that is there when the condition sets in; {axis-free = \"e3\"} (SO3) fixes the director d_3 and leaves the rotation about it free "
+              "(also e1, "
+              "e2: axes of the body)"),
+        word("support", "word", described("none"), {"clamped", "pinned"},
+             "clamped holds deformation and rotation, pinned the deformation; the rotation is free"),
+        word("symmetry", "axis", described("none"), {"x", "y", "z"},
+             "normal of a mirror plane of the body: the deformation stays in the plane, the rotation is about the normal only"),
+        word("diaphragm", "axis", described("none"), {"x", "y", "z"},
+             "normal of a plate that is rigid in its plane and weak out of it: the deformation moves along the normal only, the rotation is free"),
+        constant("from", described("before the first load step"), 1, "the condition sets in: it holds in load steps that end at t > from"),
+        constant("to", described("the last load step"), 1, "the condition ends: it holds in load steps that end at t <= to")}},
       {"continuation",
        "[continuation]",
        "Load steps t = from + k/steps (to - from), k = 1 .. steps, each from the result of the last.",

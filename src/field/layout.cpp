@@ -37,7 +37,7 @@ Layout::Layout(std::span<const Field> fields, const std::vector<std::vector<char
     : fields_(fields.begin(), fields.end()), rank_(rank), ranks_(ranks) {
   if (fields_.empty()) throw InputError("A problem needs at least one field.");
   cell_ranks_ = cell_ranks;
-  around_ = std::make_shared<VertexCells>(fields_.front().space->mesh());
+  around_ = std::make_shared<VertexCells>(fields_.front().space->mesh(), fields_.front().space->mesh().first_copies);
 
   std::vector<std::tuple<NodeKey, int, int>> places;
   for (std::size_t f = 0; f < fields_.size(); ++f)
@@ -114,10 +114,7 @@ Layout::Layout(std::span<const Field> fields, const std::vector<std::vector<char
       const auto f = static_cast<std::size_t>(field);
       first_dof_[f][static_cast<std::size_t>(node)] = dof;
       local_nodes_[f].push_back(node);
-      for (int k = 0; k < fields_[f].manifold->dim; ++k, ++dof) {
-        const std::size_t entry = static_cast<std::size_t>(node * fields_[f].manifold->dim + k);
-        fixed_.push_back(entry < fixed[f].size() && fixed[f][entry]);
-      }
+      dof += fields_[f].manifold->dim;
     }
   };
   for (const Placed& p : owned) place(p);
@@ -129,11 +126,23 @@ Layout::Layout(std::span<const Field> fields, const std::vector<std::vector<char
     for (const auto& [field, node] : g.members) {
       const auto f = static_cast<std::size_t>(field);
       owner_[f][static_cast<std::size_t>(node)] = g.owner;
-      for (int k = 0; k < fields_[f].manifold->dim; ++k) {
-        const std::size_t entry = static_cast<std::size_t>(node * fields_[f].manifold->dim + k);
-        free_dofs_ += !(entry < fixed[f].size() && fixed[f][entry]);
-      }
     }
+  fix(fixed);
+}
+
+void Layout::fix(const std::vector<std::vector<char>>& fixed) {
+  fixed_.assign(static_cast<std::size_t>(local_dofs()), 0);
+  free_dofs_ = 0;
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    const auto dim = static_cast<std::size_t>(fields_[f].manifold->dim);
+    for (std::size_t node = 0; node < first_dof_[f].size(); ++node)
+      for (std::size_t k = 0; k < dim; ++k) {
+        const std::size_t entry = node * dim + k;
+        const bool held = entry < fixed[f].size() && fixed[f][entry];
+        free_dofs_ += !held;
+        if (held && first_dof_[f][node] >= 0) fixed_[static_cast<std::size_t>(first_dof_[f][node]) + k] = 1;
+      }
+  }
 }
 
 int Layout::cell_rank(const Cell& entity) const {

@@ -28,7 +28,8 @@ std::size_t expected_nodes(const Region& region, int order) {
 
 }  // namespace
 
-Space::Space(std::shared_ptr<const Mesh> mesh, Region region, int order) : mesh_(std::move(mesh)), region_(std::move(region)), order_(order) {
+Space::Space(std::shared_ptr<const Mesh> mesh, Region region, int order, Copies copies)
+    : mesh_(std::move(mesh)), region_(std::move(region)), order_(order), copies_(copies) {
   if (order < 1 || order > 3) throw InputError("A field has order 1, 2 or 3, not " + std::to_string(order) + ".");
   if (region_.cells.empty()) throw InputError("The region \"" + region_.name + "\" has no cells to carry a field.");
   numbering_ = NodeNumbering(expected_nodes(region_, order));
@@ -38,7 +39,7 @@ Space::Space(std::shared_ptr<const Mesh> mesh, Region region, int order) : mesh_
     auto& value = values[{cell.kind, cell.order}];
     if (value.empty()) value = geometry_values(cell.kind, cell.order, order);
     std::vector<int>& nodes = cell_nodes_.emplace_back();
-    const std::vector<NodeKey> keys = lattice_keys(cell, order);
+    const std::vector<NodeKey> keys = keys_of(cell);
     nodes.reserve(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const auto found = numbering_.insert(keys[i]);
@@ -89,9 +90,22 @@ bool Space::carries(const Cell& entity, const std::vector<int>& nodes) const {
   return false;
 }
 
+std::vector<NodeKey> Space::keys_of(const Cell& entity) const {
+  return joins_copies() ? joined_lattice_keys(*mesh_, entity, order_) : lattice_keys(entity, order_);
+}
+
+std::vector<Vec3<double>> Space::entity_positions(const Cell& entity) const {
+  std::vector<Vec3<double>> positions;
+  for (const std::vector<double>& value : geometry_values(entity.kind, entity.order, order_)) {
+    Vec3<double>& x = positions.emplace_back();
+    for (std::size_t j = 0; j < entity.nodes.size(); ++j) x += value[j] * mesh_->nodes[static_cast<std::size_t>(entity.nodes[j])];
+  }
+  return positions;
+}
+
 std::vector<int> Space::entity_nodes(const Cell& entity) const {
   std::vector<int> nodes;
-  for (const NodeKey& key : lattice_keys(entity, order_)) {
+  for (const NodeKey& key : keys_of(entity)) {
     nodes.push_back(numbering_.find(key));
     if (nodes.back() < 0) return {};
   }

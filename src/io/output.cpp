@@ -137,7 +137,7 @@ OutputSampler::OutputSampler(OutputModel model) : model_(std::move(model)) {
       p = std::max(p, model_.fields[g].space->order());
       part->fields.push_back(std::move(carried));
     }
-    part->space = std::make_unique<Space>(model_.fields[f].space->mesh_ptr(), region, p);
+    part->space = std::make_unique<Space>(model_.fields[f].space->mesh_ptr(), region, p, Space::Copies::apart);
 
     const Mesh& mesh = part->space->mesh();
     const bool turned = std::ranges::any_of(

@@ -9,6 +9,7 @@
 #include "karcher/error.hpp"
 #include "karcher/mesh/folds.hpp"
 #include "karcher/mesh/node_key.hpp"
+#include "karcher/mesh/periodic.hpp"
 #include "mesh/gmsh_content.hpp"
 
 namespace karcher {
@@ -19,7 +20,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Turns the content of a file into a mesh.
 class Assembler {
  public:
-  Assembler(std::string path, GmshContent content) : path_(std::move(path)), content_(std::move(content)) {}
+  Assembler(std::string path, GmshContent content, PeriodicSides sides) : path_(std::move(path)), content_(std::move(content)), sides_(sides) {}
 
   Mesh assemble() {
     Mesh mesh;
@@ -33,7 +34,7 @@ class Assembler {
     const auto all = mesh.regions.find("all");
     if (all != mesh.regions.end() && (all->second.dim != mesh.dim || all->second.cells.size() != mesh.cells.size()))
       throw InputError(path_ + ": the physical name \"all\" is taken: it always means the whole mesh.");
-    number_used_nodes(mesh);
+    const std::vector<int> numbers = number_used_nodes(mesh);
     mesh.regions["all"] = {"all", mesh.dim, mesh.cells};
     try {
       check_identity(mesh);
@@ -41,8 +42,7 @@ class Assembler {
       throw InputError(path_ + ": " + e.what());
     }
     refuse_folds(mesh);
-    if (content_.periodic)
-      mesh.warnings.push_back(path_ + ": the section $Periodic is not read: fields do not join the nodes that it lists as the same.");
+    if (sides_ == PeriodicSides::joined) join_periodic(mesh, numbers);
     return mesh;
   }
 
@@ -107,7 +107,7 @@ class Assembler {
   }
 
   /// Keeps the nodes that cells use, in the order of the file.
-  void number_used_nodes(Mesh& mesh) const {
+  std::vector<int> number_used_nodes(Mesh& mesh) const {
     std::vector<int> numbers(content_.nodes.size(), -1);
     for (const Cell& c : mesh.cells)
       for (int n : c.nodes) numbers[at(n)] = 0;
@@ -131,6 +131,19 @@ class Assembler {
       mesh.regions.erase(region_name);
       mesh.warnings.push_back(reason);
     }
+    return numbers;
+  }
+
+  void join_periodic(Mesh& mesh, const std::vector<int>& numbers) const {
+    std::vector<PeriodicSide> sides(content_.periodic.size());
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (const auto& [copy, original] : content_.periodic[i])
+        if (numbers[at(copy)] >= 0 && numbers[at(original)] >= 0) sides[i].emplace_back(numbers[at(copy)], numbers[at(original)]);
+    try {
+      join_nodes(mesh, sides);
+    } catch (const InputError& e) {
+      throw InputError(path_ + ", section $Periodic: " + e.what());
+    }
   }
 
   void refuse_folds(const Mesh& mesh) const {
@@ -149,10 +162,11 @@ class Assembler {
 
   std::string path_;
   GmshContent content_;
+  PeriodicSides sides_;
 };
 
 }  // namespace
 
-Mesh read_gmsh(const std::string& path) { return Assembler(path, read_gmsh_content(path)).assemble(); }
+Mesh read_gmsh(const std::string& path, PeriodicSides sides) { return Assembler(path, read_gmsh_content(path), sides).assemble(); }
 
 }  // namespace karcher

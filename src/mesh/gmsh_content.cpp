@@ -82,9 +82,10 @@ class Reader {
       read_nodes_2(section == "ParametricNodes");
     else if (section == "Elements")
       content_.version == 4 ? read_cells_4() : read_cells_2();
+    else if (section == "Periodic")
+      read_periodic();
     else
       skipping = true;
-    if (section == "Periodic") content_.periodic = true;
     in_.end_section(skipping);
   }
 
@@ -300,6 +301,38 @@ class Reader {
       for (std::int64_t i = 0; i < n; ++i) {
         const std::int64_t tag = in_.size();
         add_cell(type, tag, group, [&] { return in_.size(); });
+      }
+    }
+  }
+
+  /// Pairs of nodes; which entities of the model they lie on and the map between these (`Affine`) say nothing more. Gmsh writes the section of format 2.2 as text
+  /// also in binary files.
+  void read_periodic() {
+    if (!has_nodes_) in_.fail("the section must come after $Nodes.");
+    if (content_.version == 4) in_.skip_line_end();
+    const bool text = content_.version == 2;
+    const auto integer = [&] { return text ? in_.text_integer() : in_.integer(); };
+    const auto size = [&] { return text ? std::int64_t{in_.text_integer()} : in_.size(); };
+    const std::int64_t links = in_.count(size(), "periodic entities", 4);
+    for (std::int64_t l = 0; l < links; ++l) {
+      for (int k = 0; k < 3; ++k) integer();
+      if (text) {
+        if (in_.next_is("Affine")) in_.line();
+      } else {
+        const std::int64_t affine = in_.count(in_.size(), "numbers of an affine map", 1);
+        for (std::int64_t k = 0; k < affine; ++k) in_.real();
+      }
+      const std::int64_t pairs = in_.count(size(), "pairs of nodes", 2);
+      const auto node = [&] {
+        const std::int64_t tag = size();
+        const int number = tags_.find(tag);
+        if (number < 0) in_.fail("it names node " + std::to_string(tag) + ", which is not in the file.");
+        return number;
+      };
+      PeriodicSide& side = content_.periodic.emplace_back();
+      for (std::int64_t k = 0; k < pairs; ++k) {
+        const int copy = node();
+        side.emplace_back(copy, node());
       }
     }
   }

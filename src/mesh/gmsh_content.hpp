@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "karcher/mesh/mesh.hpp"
+#include "karcher/mesh/periodic.hpp"
 
 namespace karcher {
 
@@ -35,8 +35,8 @@ struct GmshLayer {
 };
 
 struct GmshContent {
-  int version = 0;        ///< 2 or 4
-  bool periodic = false;  ///< has a section $Periodic
+  int version = 0;                     ///< 2 or 4
+  std::vector<PeriodicSide> periodic;  ///< nodes that $Periodic makes one, by their numbers
   std::vector<Vec3<double>> nodes;
   std::array<GmshLayer, 4> layers;                   ///< by dimension; nodes of cells are numbers into `nodes`, in our order
   std::map<std::pair<int, int>, std::string> names;  ///< of physical groups, by dimension and tag

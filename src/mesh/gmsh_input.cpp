@@ -60,6 +60,14 @@ std::string_view GmshInput::word() {
   return std::string_view(text_).substr(begin, position_ - begin);
 }
 
+bool GmshInput::next_is(std::string_view expected) {
+  skip_space();
+  const std::size_t begin = position_;
+  if (!at_end() && word() == expected) return true;
+  position_ = begin;
+  return false;
+}
+
 std::string_view GmshInput::line() {
   const std::size_t begin = position_;
   position_ = std::min(text_.find('\n', position_), text_.size());

@@ -24,8 +24,9 @@ class GmshInput {
   double real();
 
   // Text, which binary files contain too.
-  std::string_view word();  ///< up to white space
-  std::string_view line();  ///< the rest of the line
+  std::string_view word();              ///< up to white space
+  std::string_view line();              ///< the rest of the line
+  bool next_is(std::string_view word);  ///< then it is taken
   int text_integer();
   double text_real();
   std::string quoted();  ///< "..."

@@ -93,6 +93,15 @@ std::vector<NodeKey> lattice_keys(const Cell& cell, int q) {
   return keys;
 }
 
+std::vector<NodeKey> joined_lattice_keys(const Mesh& mesh, const Cell& cell, int q) {
+  if (mesh.first_copies.empty()) return lattice_keys(cell, q);
+  Cell first;
+  first.kind = cell.kind;
+  for (int v = 0; v < vertex_count(cell.kind); ++v)
+    first.nodes.push_back(mesh.first_copies[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(v)])]);
+  return lattice_keys(first, q);
+}
+
 NodeKey entity_key(std::span<const int> vertices) {
   NodeKey key;
   for (std::size_t v = 0; v < vertices.size(); ++v) {  // insertion sort

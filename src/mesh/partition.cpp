@@ -54,7 +54,10 @@ Graph cell_graph(const Mesh& mesh) {
     const Cell& cell = mesh.cells[c];
     for (const ReferenceFace& facet : facets(cell.kind)) {
       FacetOfCell f{{-1, -1, -1, -1}, static_cast<int>(c)};
-      for (std::size_t v = 0; v < facet.vertices.size(); ++v) f.vertices[v] = cell.nodes[static_cast<std::size_t>(facet.vertices[v])];
+      for (std::size_t v = 0; v < facet.vertices.size(); ++v) {
+        const int vertex = cell.nodes[static_cast<std::size_t>(facet.vertices[v])];
+        f.vertices[v] = mesh.first_copies.empty() ? vertex : mesh.first_copies[static_cast<std::size_t>(vertex)];
+      }
       std::sort(f.vertices.begin(), f.vertices.end());
       all.push_back(f);
     }

@@ -165,11 +165,18 @@ class Refiner {
     std::vector<int> numbers;
     const bool exact = coarse_.parametrisation && !cell.parameters.empty();
     const std::vector<NodeKey> keys = lattice_keys(cell, 2 * cell.order);
+    const bool periodic = !coarse_.first_copies.empty();
+    const std::vector<NodeKey> joined = periodic ? joined_lattice_keys(coarse_, cell, 2 * cell.order) : std::vector<NodeKey>();
     numbers.reserve(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const auto found = numbering_.insert(keys[i]);
       numbers.push_back(found.number);
       if (!found.inserted) continue;
+      if (periodic) {
+        const auto first = joined_.insert(joined[i]);
+        if (first.inserted) first_copies_.push_back(found.number);
+        fine_.first_copies.push_back(first_copies_[at(first.number)]);
+      }
       const bool vertex = i < at(vertex_count(cell.kind));
       if (exact && !vertex)
         fine_.nodes.push_back(coarse_.parametrisation(combine(plan.weights[i], cell.parameters)));
@@ -181,7 +188,8 @@ class Refiner {
 
   const Mesh& coarse_;
   Mesh fine_;
-  NodeNumbering numbering_;
+  NodeNumbering numbering_, joined_;
+  std::vector<int> first_copies_;  ///< of every number of joined_
   std::map<std::tuple<CellKind, int, std::size_t>, Plan> plans_;
 };
 

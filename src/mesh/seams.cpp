@@ -30,6 +30,7 @@ std::vector<std::string> seams(const Mesh& mesh) {
   UnionFind sets(mesh.nodes.size());
   for (const Cell& c : mesh.cells)
     for (const int n : vertices(c)) sets.join(c.nodes[0], n);
+  for (std::size_t n = 0; n < mesh.first_copies.size(); ++n) sets.join(static_cast<int>(n), mesh.first_copies[n]);
   Vec3<double> lower = mesh.nodes.front(), upper = lower;
   for (const Vec3<double>& x : mesh.nodes)
     for (int i = 0; i < 3; ++i) {
@@ -67,7 +68,8 @@ std::vector<std::string> seams(const Mesh& mesh) {
   std::sort(boxes.begin(), boxes.end());
   int pairs = 0, first = -1;
   for (std::size_t k = 1; k < boxes.size(); ++k)
-    if (boxes[k].first == boxes[k - 1].first) {
+    if (boxes[k].first == boxes[k - 1].first &&
+        (mesh.first_copies.empty() || mesh.first_copies[at(boxes[k].second)] != mesh.first_copies[at(boxes[k - 1].second)])) {
       ++pairs;
       first = first < 0 ? boxes[k].second : std::min(first, boxes[k].second);
     }

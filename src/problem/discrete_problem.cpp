@@ -1,5 +1,7 @@
 #include "karcher/problem/discrete_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,6 +45,49 @@ std::vector<double> initial_values(const Problem& problem, const FieldSpec& spec
   for (std::size_t node = 0; node < places.size(); ++node)
     spec.initial.value(places[node], problem.continuation.from, values.data() + node * static_cast<std::size_t>(n));
   return values;
+}
+
+/// Whether an energy takes the field's values for the places of the points.
+bool moves(const Problem& problem, int field) {
+  for (const TermSpec& t : problem.terms)
+    for (std::size_t k = 0; k < t.fields.size(); ++k)
+      if (t.fields[k] == field && t.info.fields[k].moves) return true;
+  return false;
+}
+
+/// Where copies of a node are one for a field, the initial values must agree there: those in `values` are of one of the copies.
+void require_periodic(const Problem& problem, int f, const Space& space, const std::vector<double>& values) {
+  if (!space.joins_copies()) return;
+  const FieldSpec& spec = problem.fields[static_cast<std::size_t>(f)];
+  if (moves(problem, f) || (spec.manifold->linear && !spec.initial))
+    refuse(spec.place,
+           fmt::format("the field \"{}\" has positions as values, which differ at the two sides of a periodic mesh; leave the sides apart with "
+                       "mesh.periodic = false, or join their nodes in the mesh.",
+                       spec.name));
+  if (spec.initial.asks_for_normal) return;
+  const auto ambient = static_cast<std::size_t>(spec.manifold->ambient);
+  std::vector<double> here(ambient);
+  for (const Cell& cell : space.region().cells) {
+    const std::vector<int> nodes = space.entity_nodes(cell);
+    const std::vector<Vec3<double>> places = space.entity_positions(cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vec3<double>& first = space.position(nodes[i]);
+      if (norm2(places[i] - first) <= 1e-20 * (1 + norm2(first))) continue;
+      const double* value = values.data() + static_cast<std::size_t>(nodes[i]) * ambient;
+      spec.initial.value({places[i], {}}, problem.continuation.from, here.data());
+      double difference = 0;
+      if (spec.manifold->linear)
+        for (std::size_t k = 0; k < ambient; ++k) difference = std::max(difference, std::abs(here[k] - value[k]) / (1 + std::abs(value[k])));
+      else
+        difference = spec.manifold->dist(here.data(), value);
+      if (difference <= 1e-9) continue;
+      const Vec3<double>& x = places[i];
+      refuse(spec.place,
+             fmt::format("the initial values of \"{}\" differ at ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}), which are one node of the "
+                         "periodic mesh.",
+                         spec.name, first[0], first[1], first[2], x[0], x[1], x[2]));
+    }
+  }
 }
 
 std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, const Discretisation& d, const Layout& layout) {
@@ -157,6 +202,7 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
     const auto space = at_place(spec.place, [&] { return std::make_shared<const Space>(d.mesh, region, order_of(spec, *d.mesh)); });
     d.fields.push_back({spec.name, spec.manifold, spec.rule, space});
     d.initial.values.push_back(initial_values(problem, spec, *space));
+    require_periodic(problem, static_cast<int>(d.fields.size()) - 1, *space, d.initial.values.back());
   }
   for (const TermSpec& spec : problem.terms) check_region_of_term(spec, d);
   d.constraints = Constraints(problem, d.fields, d.initial);
@@ -169,7 +215,7 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
     m.discretisation = discretise(problem, std::move(mesh));
     const int ranks = world_size();
     const CellRanks cell_ranks = partition_cells(*m.discretisation.mesh, ranks);
-    m.layout = std::make_shared<const Layout>(m.discretisation.fields, m.discretisation.constraints.fixed(), cell_ranks, world_rank(), ranks);
+    m.layout = std::make_shared<Layout>(m.discretisation.fields, m.discretisation.constraints.fixed(), cell_ranks, world_rank(), ranks);
   });
   together([&] {
     m.warnings = m.discretisation.mesh->warnings;
@@ -214,6 +260,22 @@ void rehearse(const Problem& problem, const DiscreteProblem& model) {
 BoundaryValues boundary_values(const DiscreteProblem& model) {
   if (!model.discretisation.constraints.has_values()) return {};
   return [&constraints = model.discretisation.constraints](double t, Configuration& u) { constraints.apply(t, u); };
+}
+
+ChangingSupports changing_supports(const DiscreteProblem& model) {
+  const Constraints& constraints = model.discretisation.constraints;
+  const auto& phases = constraints.phases();
+  ChangingSupports supports;
+  if (phases.size() == 1) return supports;
+  for (std::size_t k = 1; k < phases.size(); ++k) supports.changes.push_back(phases[k].begin);
+  supports.hold = [&constraints, layout = model.layout, now = phases.size()](double t) mutable {
+    const std::size_t phase = constraints.phase(t);
+    if (phase == now) return false;
+    now = phase;
+    layout->fix(constraints.phases()[phase].fixed);
+    return true;
+  };
+  return supports;
 }
 
 OutputModel output_model(const Problem& problem, const DiscreteProblem& model) {

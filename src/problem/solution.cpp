@@ -41,7 +41,8 @@ Solution solve(const Problem& problem, std::span<Observer* const> observers) {
   Recorder recorder(*s.model_->layout, s.states_, s.iterations_);
   std::vector<Observer*> all(observers.begin(), observers.end());
   all.push_back(&recorder);
-  s.report_ = run_continuation(*s.model_->functional, u, boundary_values(*s.model_), problem.continuation, problem.solver, all);
+  s.report_ = run_continuation(*s.model_->functional, u, boundary_values(*s.model_), problem.continuation, problem.solver, all, {},
+                               changing_supports(*s.model_));
   return s;
 }
 

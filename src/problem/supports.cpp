@@ -110,8 +110,13 @@ std::string motions_text(const Part& part, const std::vector<Motion>& basis) {
 /// A deformation with the rotations that go with it in elastic energies, in connected parts.
 class Body {
  public:
-  Body(const Problem& problem, const DiscreteProblem& model, int field)
-      : problem_(problem), model_(model), field_(field), places_(reference_positions(problem, space(field))), parts_of_nodes_(places_.size(), -1) {
+  Body(const Problem& problem, const DiscreteProblem& model, int field, const Constraints::Fixed& fixed)
+      : problem_(problem),
+        model_(model),
+        field_(field),
+        fixed_(fixed),
+        places_(reference_positions(problem, space(field))),
+        parts_of_nodes_(places_.size(), -1) {
     find_parts();
     hold_fixed(field_, [&](Part& part, int node, std::size_t i) {
       Vec3<double> e;
@@ -198,7 +203,7 @@ class Body {
 
   template <class Hold>
   void hold_fixed(int field, Hold hold) {
-    const std::vector<char>& fixed = model_.discretisation.constraints.fixed()[at(field)];
+    const std::vector<char>& fixed = fixed_[at(field)];
     const std::vector<int>& parts = field == field_ ? parts_of_nodes_ : rotations_.at(field);
     const auto dim = at(model_.fields()[at(field)].manifold->dim);
     for (std::size_t k = 0; k < fixed.size(); ++k)
@@ -219,6 +224,7 @@ class Body {
   const Problem& problem_;
   const DiscreteProblem& model_;
   int field_;
+  const Constraints::Fixed& fixed_;
   std::vector<Vec3<double>> places_;
   std::vector<int> parts_of_nodes_;
   std::map<int, std::vector<int>> rotations_;  ///< field -> part of every node, or -1
@@ -245,30 +251,34 @@ std::vector<int> deformations(const Problem& problem, const DiscreteProblem& mod
 
 std::vector<std::string> free_motions(const Problem& problem, const DiscreteProblem& model) {
   std::vector<std::string> sentences;
-  const double end = problem.continuation.to;
-  for (const int f : deformations(problem, model)) {
-    Body body(problem, model, f);
-    model.functional->set_load_parameter(end);
-    body.add_loads();
-    model.functional->set_load_parameter(problem.continuation.from);
-    const FieldSpec& field = problem.fields[at(f)];
-    const std::string place = field.place.text().empty() ? "" : field.place.text() + ": ";
-    std::size_t found = 0;
-    for (Part& part : body.parts()) {
-      sum_over_ranks(part.work);
-      part.largest_work = sum_over_ranks(part.largest_work);
-      const std::vector<Motion> basis = free_basis(part);
-      if (basis.empty() || ++found > most_sentences) continue;
-      bool pushed = false;
-      for (const Motion& m : basis)
-        pushed = pushed || std::abs(std::inner_product(m.begin(), m.end(), part.work.begin(), 0.0)) > 1e-9 * part.largest_work;
-      const std::string what =
-          body.parts().size() == 1 ? "the body" : fmt::format("the part of {} around {}", cells_text(part.cells), place_text(part.centre, part.size));
-      sentences.push_back(fmt::format("{}nothing holds the field \"{}\" completely: {} can {}{}.", place, field.name, what, motions_text(part, basis),
-                                      pushed ? fmt::format(", and the loads at t = {:.6g} push it that way", end) : std::string()));
+  const auto& phases = model.discretisation.constraints.phases();
+  for (const int f : deformations(problem, model))
+    for (const Constraints::Phase& phase : phases) {
+      Body body(problem, model, f, phase.fixed);
+      model.functional->set_load_parameter(phase.end);
+      body.add_loads();
+      model.functional->set_load_parameter(problem.continuation.from);
+      const FieldSpec& field = problem.fields[at(f)];
+      const std::string place = field.place.text().empty() ? "" : field.place.text() + ": ";
+      const std::string when = phases.size() > 1 ? fmt::format("where {:.6g} < t <= {:.6g}, ", phase.begin, phase.end) : "";
+      std::size_t found = 0;
+      for (Part& part : body.parts()) {
+        sum_over_ranks(part.work);
+        part.largest_work = sum_over_ranks(part.largest_work);
+        const std::vector<Motion> basis = free_basis(part);
+        if (basis.empty() || ++found > most_sentences) continue;
+        bool pushed = false;
+        for (const Motion& m : basis)
+          pushed = pushed || std::abs(std::inner_product(m.begin(), m.end(), part.work.begin(), 0.0)) > 1e-9 * part.largest_work;
+        const std::string what = body.parts().size() == 1
+                                     ? "the body"
+                                     : fmt::format("the part of {} around {}", cells_text(part.cells), place_text(part.centre, part.size));
+        sentences.push_back(fmt::format("{}{}nothing holds the field \"{}\" completely: {} can {}{}.", place, when, field.name, what,
+                                        motions_text(part, basis),
+                                        pushed ? fmt::format(", and the loads at t = {:.6g} push it that way", phase.end) : std::string()));
+      }
+      if (found > most_sentences) sentences.push_back(fmt::format("{}{}so can {} further parts.", place, when, found - most_sentences));
     }
-    if (found > most_sentences) sentences.push_back(fmt::format("{}so can {} further parts.", place, found - most_sentences));
-  }
   return sentences;
 }
 

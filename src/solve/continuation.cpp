@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "karcher/error.hpp"
 #include "karcher/solve/norm.hpp"
@@ -29,7 +30,8 @@ int last_load_step(const ContinuationOptions& options, const ContinuationStart& 
 }
 
 ContinuationReport run_continuation(Functional& functional, Configuration& u, const BoundaryValues& boundary, const ContinuationOptions& options,
-                                    const SolverOptions& solver, std::span<Observer* const> observers, const ContinuationStart& start) {
+                                    const SolverOptions& solver, std::span<Observer* const> observers, const ContinuationStart& start,
+                                    const ChangingSupports& supports) {
   if (const auto wrong = options.validate(); !wrong.empty()) throw InputError(wrong.front());
   const bool flow = solver.method == "gradient-flow";
   if (flow && !(options.to > options.from))
@@ -37,7 +39,9 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
   const SolverTuning& tuning = default_tuning;
   const double range = options.to - options.from, longest = range / options.steps;
   const bool adaptive = options.adaptive && range != 0;
-  Minimizer minimizer(functional, solver, tuning);
+  if (supports.hold) supports.hold(start.load_step > 0 ? start.t : options.from);
+  auto minimizer = std::make_unique<Minimizer>(functional, solver, tuning);
+  double largest_gradient = start.largest_gradient;
   ContinuationReport result;
 
   double t = options.from, increment = longest;
@@ -51,7 +55,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     if (std::abs(start.increment) < std::abs(longest) && start.increment * range > 0) increment = start.increment;
     functional.set_load_parameter(t);
     u.t = t;
-    minimizer.resume(u, start.largest_gradient);
+    minimizer->resume(u, largest_gradient);
   }
   PathWatch path(functional.layout(), step_mass(functional.layout()), tuning);
   path.next(u);
@@ -60,6 +64,15 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     if (adaptive) {
       next = t + increment;
       if ((options.to - next) / increment < tuning.step_remainder) next = options.to;
+      for (const double change : supports.changes)
+        if ((change - t) / longest > tuning.same_load && (next - change) / longest > -tuning.same_load) {
+          next = change;
+          break;
+        }
+    }
+    if (supports.hold && supports.hold(next)) {
+      minimizer = std::make_unique<Minimizer>(functional, solver, tuning);
+      if (load_step > 0) minimizer->resume(u, largest_gradient);
     }
 
     for (Observer* o : observers) o->load_step_begins(load_step + 1, next);
@@ -72,7 +85,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     task.load_step = load_step + 1;
     task.boundary = boundary ? &target : nullptr;
     task.time_step = flow ? next - t : 0.0;
-    StepReport report = minimizer.run(u, task, observers);
+    StepReport report = minimizer->run(u, task, observers);
 
     const bool retry = adaptive && (report.status == Status::not_converged || report.status == Status::failed) &&
                        tuning.step_fall * increment / range >= options.smallest;
@@ -98,6 +111,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
       break;
     }
     t = next;
+    largest_gradient = report.largest_gradient;
     ++load_step;
     ++fixed;
   }

@@ -18,10 +18,11 @@ using testing::content;
 using testing::Outcome;
 using testing::Workshop;
 
-/// Every key there is, but `mesh.file`, which excludes `mesh.generate`.
+/// Every key there is, but those of a mesh file, which excludes `mesh.generate`.
 const std::string everything = R"toml(title = "Every key"
 [parameters]
 L = 2
+P = {csv = "load.csv", column = "P", time = "t"}
 [mesh]
 generate = "rectangle"
 refine = 0
@@ -51,6 +52,20 @@ value = [0, 0, 1]
 field = "m"
 on = "left"
 value = "initial"
+from = 0
+to = 0.5
+[[dirichlet]]
+field = "m"
+on = "right"
+support = "clamped"
+[[dirichlet]]
+field = "m"
+on = "right"
+symmetry = "x"
+[[dirichlet]]
+field = "m"
+on = "right"
+diaphragm = "x"
 [continuation]
 from = 0
 to = 1
@@ -90,6 +105,8 @@ every = 1
 )toml";
 
 const std::string needed = R"toml(
+[parameters]
+P = {csv = "load.csv", column = "P"}
 [mesh]
 generate = "rectangle"
 [regions.part]
@@ -116,42 +133,51 @@ field = "m"
 at = [1, 1, 0]
 )toml";
 
-/// The section's entries in a resolved problem: the table, the only one of named tables, or the first of an array; null if there is none.
-const Value* resolved(const Value& file, const SectionInfo& section) {
-  if (section.name.empty()) return &file;
+/// The section's entries in a resolved problem: those of the table, of the only one of named tables, or of all in an array; the series among the parameters.
+std::vector<Entry> resolved(const Value& file, const SectionInfo& section) {
+  if (section.name.empty()) return file.entries;
   const Entry* e = file.find(section.name);
-  if (!e) return nullptr;
-  if (section.header.starts_with("[[")) return &e->value.items.at(0);
-  return section.header.find('.') != std::string::npos ? &e->value.entries.at(0).value : &e->value;
+  if (!e) return {};
+  if (section.name == "parameters") return e->value.find("P")->value.entries;
+  std::vector<Entry> all;
+  for (const Value& item : e->value.items) all.insert(all.end(), item.entries.begin(), item.entries.end());
+  if (section.header.starts_with("[[")) return all;
+  return section.header.find('.') != std::string::npos ? e->value.entries.at(0).value.entries : e->value.entries;
 }
+const Entry* find(const std::vector<Entry>& entries, const std::string& key) {
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+bool is_of_file(const SectionInfo& s, const KeyInfo& k) { return s.name == "mesh" && (k.name == "file" || k.name == "periodic"); }
 
 TEST(Schema, EveryKeyIsReadAndResolved) {
   const Workshop shop;
+  shop.write("load.csv", "t,P\n0,0\n1,1\n");
   const Problem problem = read_problem(shop.write("everything.toml", everything));
   const Value file = read_toml(shop.write("resolved.toml", problem.resolved), {});
   for (const SectionInfo& s : schema()) {
-    const Value* entries = resolved(file, s);
-    ASSERT_TRUE(entries) << s.header;
+    const std::vector<Entry> entries = resolved(file, s);
+    ASSERT_FALSE(entries.empty()) << s.header;
     for (const KeyInfo& k : s.keys)
-      EXPECT_TRUE(entries->find(k.name) || (s.name == "mesh" && k.name == "file") || (s.name == "quadrature" && k.name == "degree"))
-          << s.header << " " << k.name;
+      EXPECT_TRUE(find(entries, k.name) || is_of_file(s, k) || (s.name == "quadrature" && k.name == "degree")) << s.header << " " << k.name;
   }
 }
 
 TEST(Schema, DefaultsAreThoseOfTheTableInTheResolvedFile) {
   const Workshop shop;
+  shop.write("load.csv", "t,P\n0,0\n1,1\n");
   const Problem problem = read_problem(shop.write("needed.toml", needed));
   const Value file = read_toml(shop.write("resolved.toml", problem.resolved), {});
   int defaults = 0;
   for (const SectionInfo& s : schema())
     for (const KeyInfo& k : s.keys) {
-      if (!k.standard.value) continue;
+      if (!k.standard.value || is_of_file(s, k)) continue;
       ++defaults;
       Value expected, found;
       expected.append(k.name, {}, *k.standard.value);
-      const Value* entries = resolved(file, s);
-      ASSERT_TRUE(entries && entries->find(k.name)) << s.header << " " << k.name;
-      found.append(k.name, {}, entries->find(k.name)->value);
+      const std::vector<Entry> entries = resolved(file, s);
+      ASSERT_TRUE(find(entries, k.name)) << s.header << " " << k.name;
+      found.append(k.name, {}, find(entries, k.name)->value);
       EXPECT_EQ(to_toml(found), to_toml(expected)) << s.header;
     }
   EXPECT_GE(defaults, 24);

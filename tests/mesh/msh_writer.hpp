@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "karcher/mesh/mesh.hpp"
+#include "karcher/mesh/periodic.hpp"
 #include "mesh/gmsh_cells.hpp"
 
 namespace karcher {
@@ -21,7 +22,8 @@ class MshWriter {
   MshWriter(int version, bool binary) : version_(version), binary_(binary) { out_.precision(17); }
 
   /// Regions become physical groups of these tags (0: written without a name); "all" is not written, cells of no region are.
-  std::string write(const Mesh& mesh, const std::map<std::string, int>& tags) {
+  /// \param sides  become the section $Periodic, each with an affine map
+  std::string write(const Mesh& mesh, const std::map<std::string, int>& tags, const std::vector<PeriodicSide>& sides = {}) {
     collect(mesh, tags);
     out_ << "$MeshFormat\n" << (version_ == 2 ? "2.2 " : "4.1 ") << (binary_ ? "1 8\n" : "0 8\n");
     if (binary_) {
@@ -32,6 +34,7 @@ class MshWriter {
     for (const auto& [name, tag] : tags) out_ << mesh.regions.at(name).dim << " " << tag << " \"" << name << "\"\n";
     out_ << "$EndPhysicalNames\n$Comments\nignored $Nodes\n$EndComments\n";
     version_ == 2 ? write_2(mesh) : write_4(mesh);
+    if (!sides.empty()) write_periodic(sides);
     return out_.str();
   }
 
@@ -165,6 +168,34 @@ class MshWriter {
       }
     }
     out_ << "\n$EndElements\n";
+  }
+
+  /// Of format 2.2 always as text, as Gmsh does.
+  void write_periodic(const std::vector<PeriodicSide>& sides) {
+    const bool binary = binary_;
+    binary_ = binary && version_ == 4;
+    out_ << "$Periodic\n";
+    size(static_cast<std::int64_t>(sides.size()));
+    line();
+    for (const PeriodicSide& side : sides) {
+      for (int k : {2, 5, 6}) integer(k);
+      line();
+      if (version_ == 2)
+        out_ << "Affine 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n";
+      else
+        size(16);
+      for (int k = 0; k < 16 && version_ == 4; ++k) real(k % 5 == 0 ? 1 : 0.25);
+      line();
+      size(static_cast<std::int64_t>(side.size()));
+      line();
+      for (const auto& [copy, original] : side) {
+        size(node_tag(copy));
+        size(node_tag(original));
+        line();
+      }
+    }
+    out_ << "\n$EndPeriodic\n";
+    binary_ = binary;
   }
 
   int version_;

@@ -22,6 +22,9 @@ class Layout {
   /// \param fixed  fixed[field][node * dim + component] != 0 where a tangent component does not move
   Layout(std::span<const Field> fields, const std::vector<std::vector<char>>& fixed, const CellRanks& cell_ranks, int rank, int ranks);
 
+  /// Other fixed components, as the constructor takes them; places in vectors and matrices stay. What copied them before (a Minimizer) keeps the old ones.
+  void fix(const std::vector<std::vector<char>>& fixed);
+
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
   int block_size() const { return block_size_; }

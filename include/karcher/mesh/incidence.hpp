@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "karcher/mesh/mesh.hpp"
@@ -14,11 +15,12 @@ namespace karcher {
 /// The mesh cells around every vertex, ascending, in compressed rows.
 class VertexCells {
  public:
-  explicit VertexCells(const Mesh& mesh) : begin_(mesh.nodes.size() + 1, 0) {
+  /// \param first_copies Mesh::first_copies where copies of a vertex count as one
+  explicit VertexCells(const Mesh& mesh, std::vector<int> first_copies = {})
+      : first_copies_(std::move(first_copies)), begin_(mesh.nodes.size() + 1, 0) {
     const auto for_vertices = [&](auto visit) {
       for (std::size_t i = 0; i < mesh.cells.size(); ++i)
-        for (int v = 0; v < vertex_count(mesh.cells[i].kind); ++v)
-          visit(static_cast<std::size_t>(mesh.cells[i].nodes[static_cast<std::size_t>(v)]), i);
+        for (int v = 0; v < vertex_count(mesh.cells[i].kind); ++v) visit(number(mesh.cells[i].nodes[static_cast<std::size_t>(v)]), i);
     };
     for_vertices([&](std::size_t vertex, std::size_t) { ++begin_[vertex + 1]; });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -28,7 +30,7 @@ class VertexCells {
   }
 
   std::span<const int> around(int vertex) const {
-    const auto v = static_cast<std::size_t>(vertex);
+    const std::size_t v = number(vertex);
     return std::span<const int>(cells_).subspan(static_cast<std::size_t>(begin_[v]), static_cast<std::size_t>(begin_[v + 1] - begin_[v]));
   }
 
@@ -45,7 +47,12 @@ class VertexCells {
   }
 
  private:
-  std::vector<int> begin_, cells_;
+  std::size_t number(int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return first_copies_.empty() ? v : static_cast<std::size_t>(first_copies_[v]);
+  }
+
+  std::vector<int> first_copies_, begin_, cells_;
 };
 
 /// The vertices of a cell, in its order.

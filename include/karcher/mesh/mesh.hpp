@@ -35,6 +35,9 @@ struct Mesh {
   std::map<std::string, Region> regions;  ///< physical groups and predicate regions; "all" is always there and equals `cells`
   /// Exact geometry of generated meshes: maps parameters to R^3, so that refinement lands on the exact surface. Empty for read meshes.
   std::function<Vec3<double>(const Vec3<double>&)> parametrisation;
+  /// Periodic meshes: of every node the first of its copies (itself where it has none), which are one node for fields; the geometry of each copy stays its own.
+  /// Empty: none has copies. See periodic.hpp.
+  std::vector<int> first_copies;
   /// Groups of a file that are no regions of this mesh, each with the reason.
   std::map<std::string, std::string> left_out;
   std::vector<std::string> warnings;  ///< sentences about what a file has and the mesh has not

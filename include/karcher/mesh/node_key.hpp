@@ -30,6 +30,9 @@ struct NodeKey {
 /// fastest).
 std::vector<NodeKey> lattice_keys(const Cell& cell, int q);
 
+/// The same where copies of a node (Mesh::first_copies) are one: equal for the copies of an entity.
+std::vector<NodeKey> joined_lattice_keys(const Mesh& mesh, const Cell& cell, int q);
+
 /// Identity of a whole entity by its vertices (at most 8); its place is zero.
 NodeKey entity_key(std::span<const int> vertices);
 

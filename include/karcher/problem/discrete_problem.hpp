@@ -34,7 +34,7 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
 /// Everything that a rank needs to solve.
 struct DiscreteProblem {
   Discretisation discretisation;
-  std::shared_ptr<const Layout> layout;
+  std::shared_ptr<Layout> layout;
   std::unique_ptr<Functional> functional;
   std::unique_ptr<Exchange> exchange;
   std::vector<std::string> term_names;  ///< distinct
@@ -55,6 +55,9 @@ void rehearse(const Problem& problem, const DiscreteProblem& model);
 
 /// The boundary data, as load steps want them; empty if they do not change.
 BoundaryValues boundary_values(const DiscreteProblem& model);
+
+/// Boundary data that hold in some load steps only, as load steps want them.
+ChangingSupports changing_supports(const DiscreteProblem& model);
 
 /// What writers of results need to know.
 OutputModel output_model(const Problem& problem, const DiscreteProblem& model);

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -84,7 +85,8 @@ struct TermSpec {
 };
 
 struct DirichletSpec {
-  enum class Component { value, initial, free };
+  /// current: stays where it is when the condition sets in.
+  enum class Component { value, initial, current, free };
   std::string path;  ///< for messages: "dirichlet.0"
   Place place, on_place;
   int field = 0;
@@ -92,6 +94,12 @@ struct DirichletSpec {
   std::vector<Component> components;  ///< one entry for each tangent coordinate of the manifold
   /// Of linear manifolds: writes the components that have a value, and no other; else the whole point. Empty: nothing has a value.
   PointFunction value;
+  /// Holds in load steps that end at t with from < t <= to.
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  /// An axis of space (0, 1, 2): the nodes must lie in one plane normal to it. Of a manifold with body axes, points turn about it only, whatever `components` says:
+  /// one axis of the body must lie along it.
+  int normal = -1;
+  bool may_be_absent = false;  ///< where the field has no node on the region, nothing is meant
 };
 
 struct ProbeSpec {

@@ -35,6 +35,13 @@ int last_load_step(const ContinuationOptions& options, const ContinuationStart& 
 /// Writes the Dirichlet values at t into the fixed components of u. Null: they do not depend on t.
 using BoundaryValues = std::function<void(double t, Configuration& u)>;
 
+/// Fixed components that are others in some load steps.
+struct ChangingSupports {
+  std::vector<double> changes;  ///< values of t after which they are others, ascending; adaptive load steps end there
+  /// Fixes the components (Layout::fix) that are fixed in the load step that ends at t; whether they are others than before. Null: they never change.
+  std::function<bool(double t)> hold;
+};
+
 struct ContinuationReport {
   /// converged: all load steps are; else the status of the one that ended it.
   Status status = Status::failed;
@@ -47,6 +54,7 @@ struct ContinuationReport {
 /// if a step converged, else the best point reached. Collective.
 /// \throws InputError for invalid options, and if start.t lies outside of the load range or at its end
 ContinuationReport run_continuation(Functional& functional, Configuration& u, const BoundaryValues& boundary, const ContinuationOptions& options,
-                                    const SolverOptions& solver, std::span<Observer* const> observers, const ContinuationStart& start = {});
+                                    const SolverOptions& solver, std::span<Observer* const> observers, const ContinuationStart& start = {},
+                                    const ChangingSupports& supports = {});
 
 }  // namespace karcher

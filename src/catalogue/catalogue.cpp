@@ -47,8 +47,10 @@ namespace catalogue {
 
 TermInfo term_info(const EnergyInfo& info, const TermInput& input) {
   TermInfo term{info.term_name(), info.parts, {}, info.load, {}};
-  for (std::size_t slot = 0; slot < info.fields.size(); ++slot)
+  for (std::size_t slot = 0; slot < info.fields.size(); ++slot) {
     if (info.fields[slot].headless) term.headless.push_back(input.fields[slot]);
+    if (info.fields[slot].moves) term.moving.push_back(input.fields[slot]);
+  }
   return term;
 }
 

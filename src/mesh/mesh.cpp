@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "karcher/error.hpp"
 #include "karcher/mesh/incidence.hpp"
@@ -109,6 +110,15 @@ Vec3<double> middle(const Mesh& mesh, const Cell& cell) {
   Vec3<double> sum;
   for (const int v : vertices(cell)) sum += (1.0 / vertex_count(cell.kind)) * mesh.nodes[static_cast<std::size_t>(v)];
   return sum;
+}
+
+double diagonal(const Mesh& mesh) {
+  Vec3<double> size;
+  for (int k = 0; k < 3; ++k) {
+    const auto [low, high] = std::ranges::minmax(mesh.nodes, {}, [k](const Vec3<double>& x) { return x[k]; });
+    size[k] = high[k] - low[k];
+  }
+  return std::sqrt(norm2(size));
 }
 
 std::vector<Cell> boundary_facets(const Mesh& mesh) {

@@ -57,8 +57,12 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     u.t = t;
     minimizer->resume(u, largest_gradient);
   }
-  PathWatch path(functional.layout(), step_mass(functional.layout()), tuning);
-  path.next(u);
+  std::optional<PathWatch> path;
+  const auto watch_from_here = [&] {
+    path.emplace(functional.layout(), step_mass(functional.layout()), tuning);
+    path->next(u);
+  };
+  watch_from_here();
   while (adaptive ? t != options.to : fixed < options.steps) {
     double next = fixed + 1 == options.steps ? options.to : options.from + static_cast<double>(fixed + 1) / options.steps * range;
     if (adaptive) {
@@ -73,6 +77,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
     if (supports.hold && supports.hold(next)) {
       minimizer = std::make_unique<Minimizer>(functional, solver, tuning);
       if (load_step > 0) minimizer->resume(u, largest_gradient);
+      watch_from_here();
     }
 
     for (Observer* o : observers) o->load_step_begins(load_step + 1, next);
@@ -100,7 +105,7 @@ ContinuationReport run_continuation(Functional& functional, Configuration& u, co
       if (increment / longest > 1) increment = longest;
     }
     if (converged && !flow)
-      if (const std::string jump = path.next(u); !jump.empty()) report.warnings.push_back(jump + ".");
+      if (const std::string jump = path->next(u); !jump.empty()) report.warnings.push_back(jump + ".");
     if (converged && adaptive && next != options.to) report.next_increment = increment;
     result.steps.push_back(report);
     result.seconds += report.seconds;

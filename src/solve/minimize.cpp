@@ -10,6 +10,7 @@
 #include "karcher/solve/spread.hpp"
 #include "solve/boundary.hpp"
 #include "solve/corrections.hpp"
+#include "solve/excursion.hpp"
 #include "solve/predictor.hpp"
 #include "solve/radius.hpp"
 #include "solve/saddle.hpp"
@@ -41,6 +42,7 @@ struct Minimizer::State {
   std::span<Observer* const> observers;
   StepReport report;
   Iterate current;
+  Configuration start_u;  ///< of the current run
   double radius = 1;
   int escapes = 0;
   double shift = 0;  ///< see Subproblem::set
@@ -84,6 +86,7 @@ void Minimizer::State::start(Configuration& u) {
     system.evaluator.gradient(current);
   }
   if (current.ok()) largest_gradient = std::max(largest_gradient, current.gradient_norm);
+  start_u = current.u;
 }
 
 /// Stability of the current point, also into the report. Nothing if the Hessian cannot be evaluated.
@@ -170,6 +173,7 @@ bool Minimizer::State::iterate() {
       return end(fmt::format("The gradient norm {:.3g} is rounding, which may be {:.3g} with these stiffnesses", current.gradient_norm, rounding));
 
     Iterate x = system.moved(current.u, step.s);
+    const double ratio_of_step = (current.energy - x.energy) / step.decrease;
     if (x.ok()) correct(system, x, current.energy, step, tolerance());
     const double ratio = tiny ? 1.0 : (current.energy - x.energy) / step.decrease;
     const bool accepted = x.ok() && (tiny ? x.gradient_norm <= tuning.steadier * current.gradient_norm && x.energy <= current.energy + significant
@@ -192,9 +196,19 @@ bool Minimizer::State::iterate() {
       return end(fmt::format("The energy cannot be reduced beyond rounding (the best step promises {:.2g}); the gradient norm is {:.3g}",
                              step.decrease, current.gradient_norm));
     }
+    if (const double moved = accepted ? diameters_moved(system.functional, start_u, x.u) : 0; moved > tuning.farthest) {
+      stop(Status::not_converged, fmt::format("In this load step the body would move by {:.3g} of its diameters, so it stays where it was: a support "
+                                              "is missing, or a load is in the wrong unit.",
+                                              moved));
+      current = {};
+      current.u = start_u;
+      system.evaluator.gradient(current);
+      return true;
+    }
     if (accepted) {
       shift = subproblem.next_shift(step, ratio);
-      radius = radius_after_accepted(radius, step.norm, ratio, tuning);
+      const bool quadratic = !tiny && !newton && std::abs(ratio_of_step - 1) <= tuning.exact && is_definite(system);
+      radius = radius_after_accepted(radius, step.norm, ratio, quadratic, tuning);
       current = std::move(x);
       tell(record);
       if (newton && step.norm <= options.step_tolerance) {

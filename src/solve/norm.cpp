@@ -31,17 +31,8 @@ double measure_factor(const GeometryJet& g, int dim) {
 }
 
 double length_of(const Mesh& mesh) {
-  Vec3<double> low, high;
-  for (int k = 0; k < 3; ++k) {
-    low[k] = std::numeric_limits<double>::infinity();
-    high[k] = -low[k];
-    for (const auto& x : mesh.nodes) {
-      low[k] = std::min(low[k], x[k]);
-      high[k] = std::max(high[k], x[k]);
-    }
-  }
-  const double diagonal = std::sqrt(norm2(high - low));
-  return diagonal > 0 ? 0.5 * diagonal : 1.0;
+  const double size = diagonal(mesh);
+  return size > 0 ? 0.5 * size : 1.0;
 }
 
 }  // namespace

@@ -9,10 +9,11 @@
 
 namespace karcher {
 
-/// ratio: of the fall of the energy to the model's decrease.
-inline double radius_after_accepted(double radius, double length, double ratio, const SolverTuning& tuning) {
+/// ratio: of the fall of the energy to the model's decrease; quadratic: the model is exact and has a minimum, which the radius keeps away.
+inline double radius_after_accepted(double radius, double length, double ratio, bool quadratic, const SolverTuning& tuning) {
   if (ratio < tuning.poor_ratio) return tuning.poor_fall * length;
   const bool held_back = ratio > tuning.good_ratio && length > tuning.long_step * radius;
+  if (held_back && quadratic) return tuning.exact_growth * radius;
   return std::min(held_back ? tuning.growth * radius : radius, tuning.longest_radius * length);
 }
 

@@ -34,6 +34,11 @@ std::string Stability::kind() const {
   return kind;
 }
 
+bool is_definite(System& system) {
+  const std::optional<Inertia> inertia = system.subproblem().inertia(0.0);
+  return inertia && inertia->negative == 0 && system.subproblem().no_eigenvalue_within(system.tuning.neutral * stiffest(system));
+}
+
 std::optional<Stability> stability_at(System& system, Iterate& x) {
   if (!system.linearise(x, 0.0)) return {};
   Subproblem& subproblem = system.subproblem();

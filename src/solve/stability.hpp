@@ -22,4 +22,7 @@ struct Stability {
 /// Linearises at x. Nothing, with x.failure, if the Hessian cannot be evaluated. Collective.
 std::optional<Stability> stability_at(System& system, Iterate& x);
 
+/// Whether the Hessian where the system is linearised is positive definite beyond rounding; false where the subproblem cannot tell. Collective.
+bool is_definite(System& system);
+
 }  // namespace karcher

@@ -19,16 +19,17 @@ std::vector<char> fixed_flags(const Layout& layout) {
 
 }  // namespace
 
-System::System(Functional& functional, SolverOptions o, const SolverTuning& t)
-    : layout(functional.layout()),
+System::System(Functional& f, SolverOptions o, const SolverTuning& t)
+    : functional(f),
+      layout(f.layout()),
       options(std::move(o)),
       tuning(t),
       exchange(layout),
       fixed(fixed_flags(layout)),
       mass(step_mass(layout)),
-      evaluator(functional, exchange, fixed, mass, tuning.noise, work, phases),
+      evaluator(f, exchange, fixed, mass, tuning.noise, work, phases),
       numbers_(seed_numbers(layout)),
-      h_(functional.make_matrix()) {}
+      h_(f.make_matrix()) {}
 
 bool System::linearise(Iterate& x, double shift) {
   const bool same_place = !on_any_rank(linearised_at_.values.empty() || linearised_at_.values != x.u.values);

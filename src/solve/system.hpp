@@ -21,6 +21,7 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
+  const Functional& functional;
   const Layout& layout;
   const SolverOptions options;
   const SolverTuning tuning;

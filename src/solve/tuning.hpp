@@ -25,18 +25,24 @@ struct SolverTuning {
   double steadier = 0.5;
 
   // The radius (solve/radius.hpp).
-  double first_radius = 1;    ///< where SolverOptions::initial_radius is 0: half the domain, or one radian
-  double poor_ratio = 0.25;   ///< accepted with ratio < this: the model is wrong at that length,
-  double poor_fall = 0.5;     ///< so radius = this * |s|
-  double good_ratio = 0.9;    ///< accepted with ratio > this
-  double long_step = 0.9;     ///< and |s| > this * radius: it was the radius that kept the step short,
-  double growth = 2;          ///< so radius *= this
+  double first_radius = 1;   ///< where SolverOptions::initial_radius is 0: half the domain, or one radian
+  double poor_ratio = 0.25;  ///< accepted with ratio < this: the model is wrong at that length,
+  double poor_fall = 0.5;    ///< so radius = this * |s|
+  double good_ratio = 0.9;   ///< accepted with ratio > this
+  double long_step = 0.9;    ///< and |s| > this * radius: it was the radius that kept the step short,
+  double growth = 2;         ///< so radius *= this
+  /// |ratio - 1| <= exact before corrections, held back, and H positive definite: the energy is quadratic with a minimum, and the radius, which has no unit for
+  /// fields that are no places, is only in the way, so radius *= exact_growth
+  double exact = 1e-6, exact_growth = 1e4;
   double longest_radius = 8;  ///< radius <= this * |s| in any case: much longer than the last step it would say nothing about the next one
   /// Rejected: radius = t |s|, t the minimum of the parabola along s, kept in [least_fall, most_fall]; undefined_fall where there is no parabola (the energy is not
   /// defined at the trial point).
   double least_fall = 0.2, most_fall = 0.5, undefined_fall = 0.25;
   /// A tiny step within a radius < this may be tiny because of the radius alone: a step of this length is asked for before the solver takes it for the end.
   double shortest_radius = 1e-6;
+
+  /// A body that moves by more than this many of its diameters in a load step flies away: nothing holds it, or a unit is wrong.
+  double farthest = 100;
 
   // Where the next matrix is factorised (Subproblem::next_shift).
   double trusted_ratio = 0.75;  ///< ratio > this: the multiplier is falling towards the minimum,

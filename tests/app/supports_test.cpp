@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "program_runner.hpp"
 
 namespace karcher::app {
@@ -119,6 +121,45 @@ TEST(Supports, PartsAndNodesAtOnePlaceAreCounted) {
                                "loads at t = 1 push it that "
                                "way.\n"})
     EXPECT_NE(o.out.find(sentence), std::string::npos) << sentence << o.out;
+}
+
+TEST(Supports, ThatAreMissingEndTheRunWhereTheBodyWouldFlyAwayAndLeaveItThere) {
+  const Workshop shop;
+  shop.write("plate.toml", plate + "[[probes]]\nname = \"tip\"\nfield = \"m\"\nat = [2, 1, 0]\nquantity = \"displacement\"\n");
+  const Outcome o = shop.karcher("run plate.toml -q");
+  EXPECT_EQ(o.code, 1) << o.err;
+  const auto summary = nlohmann::json::parse(testing::content(shop.directory() / "plate/summary.json"));
+  const std::string reason = summary["reason"];
+  EXPECT_NE(reason.find("of its diameters, so it stays where it was: a support is missing"), std::string::npos) << reason;
+  EXPECT_LT(summary["load_steps"][0]["iterations"].get<int>(), 30);
+  EXPECT_EQ(summary["load_steps"][0]["probes"]["tip"], std::vector<double>({0, 0, 0}));
+}
+
+TEST(Supports, ALoadOfAnySizeIsFollowedByALinearBody) {
+  const Workshop shop;
+  shop.write("string.toml", R"toml(
+[mesh]
+generate = "interval"
+cells = 4
+[fields.u]
+manifold = "R1"
+initial = 0
+[[energies]]
+type = "harmonic"
+field = "u"
+[[loads]]
+type = "volume"
+field = "u"
+value = "1e80*t"
+[[dirichlet]]
+field = "u"
+on = "boundary"
+value = 0
+)toml");
+  const Outcome o = shop.karcher("run string.toml -q");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const auto summary = nlohmann::json::parse(testing::content(shop.directory() / "string/summary.json"));
+  EXPECT_LT(summary["load_steps"][0]["iterations"].get<int>(), 30);
 }
 
 }  // namespace

@@ -17,19 +17,25 @@ using testing::Recorder;
 using testing::unit;
 
 TEST(Radius, IsHalfTheStepAfterAPoorOne) {
-  EXPECT_EQ(radius_after_accepted(8, 3, 0.249, default_tuning), 1.5);
-  EXPECT_EQ(radius_after_accepted(8, 3, 0.25, default_tuning), 8);
+  EXPECT_EQ(radius_after_accepted(8, 3, 0.249, false, default_tuning), 1.5);
+  EXPECT_EQ(radius_after_accepted(8, 3, 0.25, false, default_tuning), 8);
 }
 
 TEST(Radius, DoublesAfterAGoodStepThatItHeldBack) {
-  EXPECT_EQ(radius_after_accepted(8, 7.3, 0.91, default_tuning), 16);
-  EXPECT_EQ(radius_after_accepted(8, 7.1, 0.91, default_tuning), 8);  // a shorter step was free to be longer
-  EXPECT_EQ(radius_after_accepted(8, 7.3, 0.90, default_tuning), 8);  // not good enough
+  EXPECT_EQ(radius_after_accepted(8, 7.3, 0.91, false, default_tuning), 16);
+  EXPECT_EQ(radius_after_accepted(8, 7.1, 0.91, false, default_tuning), 8);  // a shorter step was free to be longer
+  EXPECT_EQ(radius_after_accepted(8, 7.3, 0.90, false, default_tuning), 8);  // not good enough
+}
+
+TEST(Radius, IsOutOfTheWayAfterAStepForWhichTheModelIsExact) {
+  EXPECT_EQ(radius_after_accepted(8, 7.3, 9, true, default_tuning), 8e4);
+  EXPECT_EQ(radius_after_accepted(8, 7.3, 9, false, default_tuning), 16);
+  EXPECT_EQ(radius_after_accepted(8, 7.1, 9, true, default_tuning), 8);
 }
 
 TEST(Radius, IsNeverMoreThanEightSteps) {
-  EXPECT_EQ(radius_after_accepted(8, 0.5, 0.95, default_tuning), 4);
-  EXPECT_EQ(radius_after_accepted(8, 0.5, 0.5, default_tuning), 4);
+  EXPECT_EQ(radius_after_accepted(8, 0.5, 0.95, false, default_tuning), 4);
+  EXPECT_EQ(radius_after_accepted(8, 0.5, 0.5, false, default_tuning), 4);
 }
 
 TEST(Radius, AfterARejectedStepEndsAtTheMinimumOfTheParabola) {

@@ -60,6 +60,7 @@ struct TermInfo {
   std::vector<QuantityInfo> quantities;
   bool load = false;          ///< a potential of loads, not an energy stored in the body
   std::vector<int> headless;  ///< numbers of the fields with FieldSlot::headless, in the functional
+  std::vector<int> moving{};  ///< of those with FieldSlot::moves
 };
 
 struct EnergyInfo {

@@ -51,6 +51,9 @@ struct Mesh {
 /// Mean of a cell's vertices.
 Vec3<double> middle(const Mesh& mesh, const Cell& cell);
 
+/// Length of the diagonal of the box around all nodes.
+double diagonal(const Mesh& mesh);
+
 /// All facets of the mesh's cells that belong to exactly one cell.
 std::vector<Cell> boundary_facets(const Mesh& mesh);
 /// All distinct entities of dimension `dim` (0 vertices .. mesh.dim cells), optionally only those on the boundary.

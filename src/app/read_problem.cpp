@@ -343,6 +343,10 @@ class Reader {
       if (known == problem_.exact_values.end()) refuse(v->place, key + " is \"exact\", but the field has no [exact] value.");
       spec.components.assign(static_cast<std::size_t>(m.dim), Component::value);
       spec.value = m.linear ? of_components(spec.components, known->second.entries()) : known->second.function();
+    } else if (v->is(Value::Kind::text) && m.ambient > 1 && !(v->text == "identity" && m.has_identity)) {
+      std::vector<std::string> words{"initial", "current", "exact"};
+      if (m.has_identity) words.push_back("identity");
+      refuse_name(v->place, key + " cannot be", v->text, words);
     } else if (v->is(Value::Kind::table)) {
       spec.components = axis_free(*v, key, m, s.has("from") ? Component::current : Component::initial);
     } else if (m.linear) {

@@ -101,6 +101,18 @@ TEST(Periodic, AMapThatWindsOnceAroundTheSquareHasTheEnergyTwoPiSquared) {
       }
 }
 
+TEST(Periodic, ACircleInTheSphereHasThatEnergyToo) {
+  const Workshop shop;
+  shop.write("square.msh", square(4, 4));
+  std::string problem = winding("x", 2);
+  problem.replace(problem.find("S1"), 2, "S2");
+  problem.replace(problem.find("sin(2*pi*angle)\"]"), 17, "sin(2*pi*angle)\", 0]");
+  shop.write("problem.toml", problem);
+  const Outcome o = shop.karcher("evaluate problem.toml --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NEAR(json::parse(o.out)["energy"].get<double>(), 2 * pi * pi, 1e-12);
+}
+
 TEST(Periodic, TheLeastEnergyOfMapsThatWindOnceAroundIsTwoPiSquaredAndZeroWhereTheSidesAreApart) {
   for (const int order : {1, 2}) {
     const Workshop shop;

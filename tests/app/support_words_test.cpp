@@ -147,6 +147,7 @@ TEST(SupportWords, ThatCannotBeMeantAreRefused) {
   };
   says(with("support = \"clampt\""), "dirichlet.0.support cannot be \"clampt\". Did you mean \"clamped\"?");
   says(with("symetry = \"x\""), "Did you mean \"symmetry\"?");
+  says(with("field = \"m\"\nvalue = \"curent\""), "dirichlet.0.value cannot be \"curent\". Did you mean \"current\"?");
   says(with("symmetry = \"w\""), "dirichlet.0.symmetry cannot be \"w\"");
   says(with("symmetry = \"x\"\nsupport = \"pinned\""), "both \"support\" and \"symmetry\"");
   says(with(""), "lacks the key \"value\" (or one of support, symmetry, diaphragm)");

@@ -3,6 +3,7 @@
 #   make build   the program, at build/karcher
 #   make demo    build it and bend a Klein bottle
 #   make test    build and run all tests
+#   make fuzz    run the fuzzer of every reader for FUZZ_TIME=60 seconds each
 #   make bench   run the benchmarks: BENCH_FILTER=regular-expression, BENCH_OUT=results.json
 #   make gallery make the picture of every example
 #   make check   format and dependency rules of the sources
@@ -14,6 +15,7 @@
 BUILD ?= release
 JOBS ?= $(shell nproc)
 CMAKE_ARGS ?=
+FUZZ_TIME ?= 60
 BENCH_FILTER ?= .
 BENCH_OUT ?=
 
@@ -23,7 +25,7 @@ directory := $(if $(filter release,$(BUILD)),build,build-$(BUILD))
 configure = cmake --preset $(BUILD) $(if $(wildcard $(directory)/CMakeCache.txt),,$(if $(shell command -v ninja),-G Ninja) -DKARCHER_TESTS=OFF)
 compile = cmake --build $(directory) --parallel $(JOBS)
 
-.PHONY: build demo test bench gallery check format
+.PHONY: build demo test fuzz fuzzers bench gallery check format
 
 build:
 	@scripts/install_packages.sh build
@@ -38,6 +40,16 @@ test:
 	$(configure) -DKARCHER_TESTS=ON $(CMAKE_ARGS)
 	$(compile)
 	ctest --test-dir $(directory) --output-on-failure --parallel $(JOBS)
+
+# Always with sanitizers; beside the sanitized tests, if they are there, only the fuzzers themselves are left to build.
+fuzz:
+	@scripts/install_packages.sh build fuzz
+	@$(MAKE) --no-print-directory fuzzers BUILD=sanitize
+
+fuzzers:
+	$(configure) -DKARCHER_FUZZ=ON $(CMAKE_ARGS)
+	$(compile) --target karcher_fuzz
+	@scripts/fuzz.sh $(directory) $(FUZZ_TIME)
 
 bench:
 	@scripts/install_packages.sh build bench

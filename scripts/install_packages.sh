@@ -4,13 +4,14 @@
 #   scripts/install_packages.sh            what building and running Karcher needs
 #   scripts/install_packages.sh build test the same, and what `make test` needs
 #
-# Sets: build, test, bench, check (format), viewer (the page and its browser test).
+# Sets: build, test, fuzz, bench, check (format), viewer (the page and its browser test).
 set -euo pipefail
 
 # libopenblas-dev is named although nothing here includes it: PETSc alone brings the reference BLAS, which factorises about ten times slower.
 build=(g++ cmake make ninja-build pkg-config libpetsc-real-dev libmetis-dev libopenmpi-dev openmpi-bin libopenblas-dev libfmt-dev zlib1g-dev nlohmann-json3-dev
        libtomlplusplus-dev libcli11-dev)
 test=(libgtest-dev libadolc-dev libmuparser-dev python3 python3-meshio python3-numpy python3-vtk9)
+fuzz=(libclang-rt-14-dev)
 bench=(libbenchmark-dev libadolc-dev)
 check=(clang-format python3 git)
 viewer=(chromium)
@@ -20,6 +21,7 @@ for set in "${@:-build}"; do
   case "$set" in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    fuzz) wanted+=("${fuzz[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     check) wanted+=("${check[@]}") ;;
     viewer)
@@ -28,7 +30,7 @@ for set in "${@:-build}"; do
       command -v node >/dev/null || wanted+=(nodejs)
       command -v npm >/dev/null || wanted+=(npm)
       ;;
-    *) echo "$0: there is no package set \"$set\"; the sets are build, test, bench, check, viewer." >&2; exit 2 ;;
+    *) echo "$0: there is no package set \"$set\"; the sets are build, test, fuzz, bench, check, viewer." >&2; exit 2 ;;
   esac
 done
 

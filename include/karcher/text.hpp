@@ -3,8 +3,10 @@
 /// Names and texts for people: which names may stand in files, which a user may have meant (the nearest of a list), and the half sentence that error messages end with.
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,10 +38,14 @@ inline int edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Names of regions, fields, probes and parameters have at most as many characters (bytes).
+inline constexpr std::size_t longest_name = 100;
+
 /// The candidate with the smallest edit distance, the first of equals; empty when none is near (more than a third of the letters are wrong, at least
-/// one wrong letter is always forgiven).
+/// one wrong letter is always forgiven) or the name is longer than names are.
 inline std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::string best;
+  if (name.size() > longest_name) return best;
   int smallest = 1 + std::max(1, static_cast<int>(name.size()) / 3);
   for (const std::string& c : candidates) {
     const int d = edit_distance(name, c);
@@ -78,19 +84,43 @@ inline std::string printable(std::string_view text) {
   return s;
 }
 
-/// Why a name cannot be given to a region, a field or a probe, as the end of a sentence; empty if it can. Names become parts of file names.
-inline std::string fault_of_name(std::string_view name) {
-  constexpr std::size_t longest = 100;
-  if (name.empty()) return "is empty";
-  if (has_control_characters(name)) return "has control characters";
-  return name.size() > longest ? "has more than " + std::to_string(longest) + " characters" : "";
+/// Whether text is UTF-8 (RFC 3629), as XML and JSON must be.
+inline bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0U; };
+    const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >> 5 == 0x6 ? 2 : byte(0) >> 4 == 0xE ? 3 : byte(0) >> 3 == 0x1E ? 4 : 0;
+    if (length == 0) return false;
+    std::uint32_t character = length == 1 ? byte(0) : byte(0) & (0x7FU >> length);
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((byte(k) & 0xC0) != 0x80) return false;
+      character = character << 6 | (byte(k) & 0x3F);
+    }
+    constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+    if (character < least[length] || character > 0x10FFFF || (character >= 0xD800 && character < 0xE000)) return false;
+    i += length;
+  }
+  return true;
 }
 
-/// "a, b, c" for messages that list what is known.
+/// Why a name cannot be given to a region, a field or a probe, as the end of a sentence; empty if it can. Names become parts of file names.
+inline std::string fault_of_name(std::string_view name) {
+  if (name.empty()) return "is empty";
+  if (!is_utf8(name)) return "is not UTF-8";
+  if (has_control_characters(name)) return "has control characters";
+  return name.size() > longest_name ? "has more than " + std::to_string(longest_name) + " characters" : "";
+}
+
+/// The beginning of a long text, for messages.
+inline std::string shortened(std::string_view text, std::size_t most = 1000) {
+  return text.size() > most ? std::string(text.substr(0, most)) + "..." : std::string(text);
+}
+
+/// "a, b, c" for messages that list what is known; of very many, the first.
 inline std::string join_names(std::span<const std::string> names, std::string_view separator = ", ") {
+  constexpr std::size_t most = 200;
   std::string s;
-  for (const std::string& n : names) s += (s.empty() ? std::string() : std::string(separator)) + n;
-  return s;
+  for (const std::string& n : names.first(std::min(names.size(), most))) s += (s.empty() ? std::string() : std::string(separator)) + n;
+  return names.size() > most ? s + std::string(separator) + "... (" + std::to_string(names.size()) + " in all)" : s;
 }
 
 /// "Did you mean \"x\"? Known: a, b, c." or, when nothing is near, "Known: a, b, c."

@@ -5,16 +5,12 @@
 #include <cmath>
 #include <optional>
 
+#include "karcher/text.hpp"
+
 namespace karcher::app {
 namespace {
 
 constexpr std::uint32_t t_variable = 3;  // of x, y, z, t
-
-/// As much of a text as a message shows.
-std::string shown(const std::string& text) {
-  constexpr std::size_t most = 1000;
-  return text.size() > most ? text.substr(0, most) + "..." : text;
-}
 
 }  // namespace
 
@@ -28,7 +24,7 @@ struct Expression::Source {
     std::string at;
     if (uses_point) at += fmt::format(" at ({}, {}, {})", x[0], x[1], x[2]);
     if (uses_t) at += fmt::format("{} t = {}", uses_point ? "," : " at", t);
-    refuse(place, fmt::format("{}{} = \"{}\" is {}{}; it must be finite.", what, key, shown(text), value, at));
+    refuse(place, fmt::format("{}{} = \"{}\" is {}{}; it must be finite.", what, key, shortened(text), value, at));
   }
 };
 
@@ -92,6 +88,8 @@ ParameterValue Expression::parameter() const {
 Scope::Scope() : symbols_({"x", "y", "z", "t"}) {}
 
 void Scope::define(const std::string& name, const Expression& value, const Place& place) {
+  if (name.size() > longest_name)
+    refuse(place, fmt::format("the name of the parameter \"{}\" has more than {} characters.", shortened(name, longest_name), longest_name));
   if (!Symbols::is_name(name))
     refuse(place, "the parameter \"" + name + "\" cannot be used in expressions; names are made of letters, digits and underscores.");
   if (symbols_.is_taken(name)) refuse(place, "the parameter \"" + name + "\" cannot have this name: it means something else in expressions.");
@@ -106,9 +104,13 @@ Expression Scope::compile(const std::string& text, const std::string& key, const
   try {
     s.formula = symbols_.compile(text);
   } catch (const FormulaError& error) {
-    refuse(place.shifted(static_cast<int>(error.position)), "expression \"" + shown(text) + "\" of " + key + ": " + error.what());
+    refuse(place.shifted(static_cast<int>(error.position)), "expression \"" + shortened(text) + "\" of " + key + ": " + error.what());
   }
   s.program = symbols_.link(s.formula);
+  operations_ += s.program.code().size();
+  if (operations_ > most_operations)
+    refuse(place, fmt::format("up to {}, the expressions of the file have more than {} operations, with those of the parameters that they use.", key,
+                              most_operations));
   for (const Program::Definition& d : s.program.definitions()) s.parameters.push_back(sources_.at(d.symbol));
   const auto& inputs = s.program.inputs();
   const bool uses_t = !inputs.empty() && inputs.back() == t_variable;

@@ -33,7 +33,6 @@ class Reader {
     Section top(&root_, "", whole, section_info("").keys);
     problem_.title = top.text("title", problem_.file.stem().string());
     if (problem_.title.empty()) refuse(top.place("title"), "title must not be empty.");
-    if (has_control_characters(problem_.title)) refuse(top.place("title"), "title must be one line without control characters.");
     note("title", Value::of(problem_.title));
     parameters();
     mesh(top);
@@ -67,7 +66,7 @@ class Reader {
   void note(const std::string& key, Value value) { problem_.values.append(key, {}, std::move(value)); }
   static void check_name(const Place& place, const std::string& what, const std::string& name) {
     if (const std::string fault = fault_of_name(name); !fault.empty())
-      refuse(place, "the name of the " + what + " \"" + printable(name) + "\" " + fault + ".");
+      refuse(place, "the name of the " + what + " \"" + printable(shortened(name)) + "\" " + fault + ".");
   }
   /// What is known after the terms only stands before them in the resolved file.
   void note_before_terms(const std::string& key, Value value) {
@@ -520,14 +519,15 @@ class Reader {
   void probes() {
     if (!exact_resolved_.entries.empty()) note("exact", exact_resolved_);
     std::vector<Value> all;
+    std::map<std::string, Place> places;  // by name
     for (const Value& v : array_of_tables("probes")) {
       Section s(&v, fmt::format("probes.{}", all.size()), v.place, section_info("probes").keys);
       ProbeSpec spec;
       spec.place = s.place();
       spec.name = s.text("name");
       check_name(s.place("name"), "probe", spec.name);
-      for (const ProbeSpec& other : problem_.probes)
-        if (other.name == spec.name) refuse(s.place("name"), "there is a probe \"" + spec.name + "\" already (" + other.place.text() + ").");
+      const auto [known, is_new] = places.emplace(spec.name, spec.place);
+      if (!is_new) refuse(s.place("name"), "there is a probe \"" + spec.name + "\" already (" + known->second.text() + ").");
       spec.field = field_index(s.text("field"), s.place("field"));
       const std::vector<double> at = s.constants("at", problem_.scope);
       for (int i = 0; i < 3; ++i) spec.at[i] = at[static_cast<std::size_t>(i)];
@@ -536,7 +536,7 @@ class Reader {
       if (m.linear) quantities.push_back("displacement");
       for (const Quantity& q : m.quantities) quantities.push_back(q.name);
       spec.quantity = s.word("quantity", {}, quantities);
-      if (s.has("at")) spec.place = s.place("at");
+      if (s.has("at")) known->second = spec.place = s.place("at");
       problem_.probes.push_back(spec);
       all.push_back(s.resolved());
     }
@@ -554,9 +554,13 @@ class Reader {
     if (!options_.output.empty()) o.directory = std::filesystem::absolute(options_.output);
     o.directory = o.directory.lexically_normal();
     s.note("directory", Value::of(o.directory.string()));
-    if (std::filesystem::exists(o.directory) && !std::filesystem::is_directory(o.directory))
-      refuse(options_.output.empty() ? s.place("directory") : Place{"--output", 0, 0},
-             "the directory of results, " + o.directory.string() + ", is a file.");
+    const Place place = options_.output.empty() ? s.place("directory") : Place{"--output", 0, 0};
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(o.directory, error);
+    if (status.type() == std::filesystem::file_type::none)
+      refuse(place, "the directory of results, " + shortened(o.directory.string()) + ", cannot be: " + error.message() + ".");
+    if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
+      refuse(place, "the directory of results, " + o.directory.string() + ", is a file.");
     o.vtu = s.flag("vtu");
     o.report = s.flag("report");
     o.every = s.integer("every");

@@ -11,7 +11,7 @@
 namespace karcher::app {
 
 void refuse_name(const Place& place, const std::string& what, const std::string& name, const std::vector<std::string>& allowed) {
-  refuse(place, what + " \"" + name + "\". " + suggestion(name, allowed, "Allowed"));
+  refuse(place, what + " \"" + shortened(name) + "\". " + suggestion(name, allowed, "Allowed"));
 }
 
 Expression expression_of(const Value& value, const std::string& key, const Scope& scope) {
@@ -80,6 +80,9 @@ std::string Section::text(const std::string& key, const std::optional<std::strin
   const KeyInfo& k = info(key, {KeyKind::text, KeyKind::word});
   const Value& v = standard && !given(key) ? Value::of(*standard) : value(k);
   if (!v.is(Value::Kind::text)) wrong_type(key, v, "a string");
+  constexpr std::size_t longest = 4000;
+  if (given(key) && v.text.size() > longest) refuse(v.place, fmt::format("{} has more than {} characters.", path(key), longest));
+  if (given(key) && has_control_characters(v.text)) refuse(v.place, path(key) + " must be one line without control characters.");
   note(key, Value::of(v.text));
   return v.text;
 }

@@ -12,6 +12,48 @@
 namespace karcher::app {
 namespace {
 
+/// Parts of a dotted key, which no key of a problem file comes near.
+constexpr int most_parts = 10;
+
+/// Past the string that begins here.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  const std::string three(3, quote);
+  const bool several_lines = text.substr(begin, 3) == three;
+  for (std::size_t i = begin + (several_lines ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (several_lines && text.substr(i, 3) == three) {
+      // Up to two quotation marks may stand before the three that end it.
+      const std::size_t after = std::min(text.find_first_not_of(quote, i), text.size());
+      return std::min(after, i + 5);
+    } else if (!several_lines && (text[i] == quote || text[i] == '\n')) {
+      return i + 1;
+    }
+  }
+  return text.size();
+}
+
+/// toml++ limits how deep values are nested, but not how many parts a dotted key has; each is a table in a table.
+void refuse_deep_keys(std::string_view text, const std::string& file) {
+  int parts = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = end_of_string(text, i);
+      continue;
+    }
+    if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    if (c == '.' && ++parts > most_parts) {
+      const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+      refuse({file, static_cast<int>(line), static_cast<int>(i - text.substr(0, i).rfind('\n'))},
+             fmt::format("a key of more than {} parts is none of a problem file.", most_parts));
+    }
+    if (std::string_view(",=[]{}#\n").find(c) != std::string_view::npos) parts = 1;
+    ++i;
+  }
+}
+
 Place place_of(const toml::source_region& source, const std::string& file) {
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
@@ -93,6 +135,8 @@ void apply_override(Value& root, const std::string& text) {
     return s;
   };
   std::vector<std::string> path = split(trimmed(text.substr(0, equals)));
+  if (path.size() > static_cast<std::size_t>(most_parts))
+    refuse({"--set", 0, 0}, fmt::format("a key of more than {} parts is none of a problem file.", most_parts));
   if (path.size() == 1 && !root.find(path[0])) {
     const Entry* parameters = root.find("parameters");
     if (parameters && parameters->value.find(path[0])) path.insert(path.begin(), "parameters");
@@ -270,9 +314,11 @@ std::string Value::kind_name() const {
 }
 
 Value read_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  if (std::filesystem::is_directory(file)) throw InputError(file.string() + " is a directory, not a problem file.");
-  constexpr std::size_t most = 100'000'000;
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) throw InputError(file.string() + " is a directory, not a problem file.");
+  constexpr std::size_t most = 10'000'000;
   const std::string content = read_whole(file, most);
+  refuse_deep_keys(content, file.string());
   Value root;
   try {
     root = convert(toml::parse(content, file.string()), file.string());

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "karcher/expression/symbols.hpp"
 
@@ -9,7 +12,7 @@ namespace {
 /// Instructions in static single assignment: the first places are those of the variables, the next those of what the instructions give, one each.
 class Linker {
  public:
-  explicit Linker(const Symbols& symbols) : symbols_(symbols), place_of_symbol_(symbols.size(), 0), variables_(symbols.variables()) {}
+  explicit Linker(const Symbols& symbols) : symbols_(symbols), variables_(symbols.variables()) {}
 
   Program program(const Formula& formula) {
     const std::vector<std::uint32_t> needed = closure(formula);
@@ -30,24 +33,19 @@ class Linker {
  private:
   /// The symbols that the formula names, directly or through others, in increasing order. A definition names earlier symbols only.
   std::vector<std::uint32_t> closure(const Formula& formula) const {
-    std::vector<bool> needed(symbols_.size(), false);
-    for (const std::uint32_t s : formula.symbols) needed[s] = true;
-    std::vector<std::uint32_t> all;
-    for (std::size_t s = symbols_.size(); s-- > 0;) {
-      if (!needed[s]) continue;
-      all.push_back(static_cast<std::uint32_t>(s));
-      if (symbols_[s].kind != Symbols::Kind::definition) continue;
-      for (const std::uint32_t inner : symbols_[s].definition->symbols) needed[inner] = true;
-    }
-    std::reverse(all.begin(), all.end());
-    return all;
+    // From the last, so that what a definition names comes after it. Symbols that nothing names cost nothing.
+    std::set<std::uint32_t, std::greater<>> needed(formula.symbols.begin(), formula.symbols.end());
+    for (const std::uint32_t s : needed)
+      if (symbols_[s].kind == Symbols::Kind::definition)
+        needed.insert(symbols_[s].definition->symbols.begin(), symbols_[s].definition->symbols.end());
+    return {needed.rbegin(), needed.rend()};
   }
 
   /// \return the place of the result
   std::uint32_t append(const Formula& formula) {
     const auto offset = static_cast<std::uint32_t>(code_.size());
     const std::uint32_t first = variables_ + offset;
-    const auto place = [&](std::uint32_t p) { return p & Formula::of_symbol ? place_of_symbol_[p & ~Formula::of_symbol] : p + first; };
+    const auto place = [&](std::uint32_t p) { return p & Formula::of_symbol ? place_of_symbol_.at(p & ~Formula::of_symbol) : p + first; };
     for (Instruction i : formula.code) {
       i.to = variables_ + static_cast<std::uint32_t>(code_.size());
       if (operands(i.op) > 0) i.a = place(i.a);
@@ -94,7 +92,7 @@ class Linker {
   }
 
   const Symbols& symbols_;
-  std::vector<std::uint32_t> place_of_symbol_;
+  std::map<std::uint32_t, std::uint32_t> place_of_symbol_;
   std::uint32_t variables_;
   std::vector<std::uint32_t> inputs_;
   std::vector<Program::Definition> definitions_;

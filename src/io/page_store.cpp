@@ -97,12 +97,14 @@ void read_description(const json& j, BinaryReader& reader, Store& store) {
     part.region = p.at("region");
     part.dim = p.at("dim");
     part.order = p.at("order");
+    if (part.order < 1 || part.order > 3) throw InputError("unknown order");
     part.points = p.at("points");
     part.moves = p.at("moves");
     part.point_data = read_list(p.at("point_data"));
     part.cell_data = read_list(p.at("cell_data"));
     for (const std::uint32_t kind : reader.numbers<std::uint32_t>(p.at("cells"))) {
-      if (kind > static_cast<std::uint32_t>(CellKind::hexahedron)) throw InputError("unknown cell");
+      if (kind > static_cast<std::uint32_t>(CellKind::hexahedron) || dimension(static_cast<CellKind>(kind)) != part.dim)
+        throw InputError("unknown cell");
       part.cells.push_back({static_cast<CellKind>(kind), {}});
     }
     for (OutputCell& c : part.cells)

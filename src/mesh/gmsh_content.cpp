@@ -19,9 +19,11 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 /// Tags of nodes, which may have gaps, to numbers from 0.
 class NodeTags {
  public:
+  /// As many tags are expected: those that are not much greater have their places in an array.
+  void expect(std::int64_t nodes) { dense_limit_ = 8 * nodes + 1024; }
   bool insert(std::int64_t tag) {
     const int number = count_++;
-    if (tag >= 0 && tag < dense_limit) {
+    if (tag >= 0 && tag < dense_limit_) {
       if (at(tag) >= dense_.size()) dense_.resize(std::max(at(tag) + 1, 2 * dense_.size()), -1);
       if (dense_[at(tag)] >= 0) return false;
       dense_[at(tag)] = number;
@@ -31,13 +33,13 @@ class NodeTags {
   }
   /// -1 if there is none
   int find(std::int64_t tag) const {
-    if (tag >= 0 && tag < dense_limit) return at(tag) < dense_.size() ? dense_[at(tag)] : -1;
+    if (tag >= 0 && tag < dense_limit_) return at(tag) < dense_.size() ? dense_[at(tag)] : -1;
     const auto it = sparse_.find(tag);
     return it == sparse_.end() ? -1 : it->second;
   }
 
  private:
-  static constexpr std::int64_t dense_limit = 1 << 26;
+  std::int64_t dense_limit_ = 0;
   std::vector<int> dense_;
   std::unordered_map<std::int64_t, int> sparse_;
   int count_ = 0;
@@ -190,6 +192,7 @@ class Reader {
   void read_nodes_2(bool parametric) {
     start_nodes();
     const std::int64_t n = in_.count(in_.text_integer(), "nodes", in_.binary ? 28 : 8);
+    tags_.expect(n);
     if (in_.binary) in_.skip_line_end();
     for (std::int64_t i = 0; i < n; ++i) {
       const int tag = in_.integer();
@@ -206,7 +209,7 @@ class Reader {
     start_nodes();
     in_.skip_line_end();
     const std::int64_t blocks = in_.count(in_.size(), "node blocks", 1);
-    in_.count(in_.size(), "nodes", in_.binary ? 32 : 8);
+    tags_.expect(in_.count(in_.size(), "nodes", in_.binary ? 32 : 8));
     in_.size();
     in_.size();
     for (std::int64_t b = 0; b < blocks; ++b) {

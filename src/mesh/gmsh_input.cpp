@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "karcher/error.hpp"
+#include "karcher/memory.hpp"
 
 namespace karcher {
 
@@ -22,6 +23,8 @@ GmshInput::GmshInput(std::string path) : path_(std::move(path)) {
   if (!file) throw InputError("Cannot open the mesh file \"" + path_ + "\".");
   const std::streamoff size = file.tellg();
   if (size < 0) throw InputError("Cannot read the mesh file \"" + path_ + "\".");
+  // The cells of the mesh take at least as much as the file, which is kept beside them.
+  require_memory(2 * static_cast<double>(size), "The mesh file \"" + path_ + "\"");
   text_.resize(static_cast<std::size_t>(size));
   file.seekg(0);
   if (!file.read(text_.data(), size)) throw InputError("Cannot read the mesh file \"" + path_ + "\".");

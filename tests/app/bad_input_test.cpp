@@ -1,5 +1,6 @@
 // Problem files with one mistake each: the message names file, line and column and what is wrong, the exit code is 2, and nothing is written.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "program_runner.hpp"
@@ -65,6 +66,19 @@ std::string with(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
+std::string repeated(const std::string& text, int times) {
+  std::string s;
+  for (int i = 0; i < times; ++i) s += text;
+  return s;
+}
+
+/// p0 = 1, and each parameter of the 2000 others is the one before and x.
+std::string chain_of_parameters() {
+  std::string s = "p0 = 1\n";
+  for (int i = 1; i <= 2000; ++i) s += fmt::format("p{} = \"p{} + x\"\n", i, i - 1);
+  return s;
+}
+
 struct Mistake {
   const char* name;
   std::string file;
@@ -118,6 +132,29 @@ std::vector<Mistake> mistakes() {
       {"NameTooLong", with("[regions.middle]", "[regions." + std::string(101, 'a') + "]"), ":12:10: ", {"has more than 100 characters."}},
       {"FieldWithoutAName", with("[solver]", "[fields.\"\"]\nmanifold = \"R1\"\n[solver]"), ":47:9: ", {"the name of the field \"\" is empty."}},
       {"TitleOfSeveralLines", with("\"A strip\"", "\"A\\nstrip\""), ":1:", {"title must be one line without control characters."}},
+      {"PathWithAZero",
+       with("generate = \"rectangle\"\nsize = [2, 1]\ncells = [2, 1]\nshape = \"quadrilateral\"", "file = \"block.msh\\u0000x\""),
+       ":7:8: ",
+       {"mesh.file must be one line without control characters."}},
+      {"DirectoryThatCannotBe",
+       good + "[output]\ndirectory = \"" + std::string(300, 'd') + "\"\n",
+       ":50:13: ",
+       {"the directory of results, ", " cannot be: File name too long."}},
+      {"TextTooLong", with("on = \"left\"", "on = \"" + std::string(4001, 'a') + "\""), ":44:6: ", {"dirichlet.0.on has more than 4000 characters."}},
+      {"ParameterWithALongName",
+       with("load = 1.0", "load = 1.0\n" + std::string(500000, 'p') + " = 1\na = \"" + std::string(500000, 'q') + "\""),
+       ":5:1: ",
+       {"has more than 100 characters."}},
+      {"UnknownNameOfALongName", with("load = 1.0", "load = 1.0\na = \"" + std::string(500000, 'q') + "\""), ":5:6: ", {"is not known."}},
+      {"ParametersThatMakeEachOtherLong",
+       with("load = 1.0", "load = 1.0\n" + chain_of_parameters()),
+       ":1419:10: ",
+       {"up to parameters.p1414, the expressions of the file have more than 1000000 operations"}},
+      {"KeyOfManyParts", good + "[" + repeated("a.", 200000) + "a]\n", ":49:21: ", {"a key of more than 10 parts is none of a problem file."}},
+      {"KeyOfManyPartsBehindStrings",
+       with("\"A strip\"", "\"\"\"a \\\" b\"\"\"\"\"") + "'\"'." + repeated("a.", 200000) + "a = 1 # \"\n",
+       ":49:22: ",
+       {"a key of more than 10 parts is none of a problem file."}},
       {"ProbeWhoseDistanceOverflows",
        good + "\n[[probes]]\nname = \"far\"\nfield = \"m\"\nat = [0, 1e308, 0]\n",
        ":53:",
@@ -304,7 +341,7 @@ TEST(BadInput, ADeviceIsNoProblemFile) {
   const Workshop shop;
   const Outcome o = shop.karcher("check /dev/zero");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("The file /dev/zero has more than 100000000 bytes."), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("The file /dev/zero has more than 10000000 bytes."), std::string::npos) << o.err;
 }
 
 TEST(BadInput, OverridesAreNamedInMessages) {

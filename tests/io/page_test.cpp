@@ -12,6 +12,7 @@
 #include <numeric>
 #include <set>
 
+#include "io/binary.hpp"
 #include "io/fields.hpp"
 #include "io/page_data.hpp"
 #include "io/page_geometry.hpp"
@@ -571,7 +572,7 @@ TEST(PageStates, ARecordCutOffByAKillIsLeftOutAndSaidSo) {
   EXPECT_EQ(read_store(directory / "report.data").states.size(), 2U);
 }
 
-TEST(PageStates, LengthsBeyondTheFileAreRefusedAlsoWhereTheirBytesAreMoreThan64BitsCount) {
+TEST(PageStates, WhatNoDescriptionHoldsIsRefusedAlsoLengthsOfMoreBytesThan64BitsCount) {
   const TemporaryDirectory directory;
   const auto refusal = [&](const json& part, std::string_view numbers) -> std::string {
     const json description{
@@ -594,6 +595,15 @@ TEST(PageStates, LengthsBeyondTheFileAreRefusedAlsoWhereTheirBytesAreMoreThan64B
     EXPECT_NE(refusal(part, three_floats).find("was written by another version of Karcher"), std::string::npos) << points;
   }
   part["points"] = 1;
+  part["order"] = 4;
+  EXPECT_NE(refusal(part, three_floats).find("was written by another version of Karcher"), std::string::npos);
+  part["order"] = 1;
+  part["cells"] = 1;
+  BinaryWriter line, quadrilateral;
+  line.numbers<std::uint32_t>(std::vector<std::uint32_t>{static_cast<std::uint32_t>(CellKind::line), 0, 0});
+  quadrilateral.numbers<std::uint32_t>(std::vector<std::uint32_t>{static_cast<std::uint32_t>(CellKind::quadrilateral), 0, 0, 0, 0});
+  EXPECT_EQ(refusal(part, line.bytes() + three_floats), "accepted");
+  EXPECT_NE(refusal(part, quadrilateral.bytes() + three_floats).find("was written by another version of Karcher"), std::string::npos);
   part["cells"] = std::uint64_t{1} << 62;
   EXPECT_NE(refusal(part, three_floats).find("was written by another version of Karcher"), std::string::npos);
 }

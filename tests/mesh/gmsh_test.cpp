@@ -1,6 +1,7 @@
 #include "karcher/mesh/gmsh.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -333,6 +334,37 @@ TEST(Gmsh, RefusesDirectoriesDevicesAndPipesAtOnce) {
   EXPECT_TRUE(contains(told("/dev/zero"), "is no file but a device or a pipe."));
   ASSERT_EQ(mkfifo((directory / "pipe").c_str(), 0600), 0);
   EXPECT_TRUE(contains(told((directory / "pipe").string()), "is no file but a device or a pipe."));
+}
+
+TEST(Gmsh, NodesOfGreatNumbersTakeNoMoreMemoryThanOthers) {
+  const auto peak = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1000;  // MB
+  };
+  const auto before = peak();
+  for (const std::string tag : {"67108000", "2000000000"}) {
+    const File file(ascii("3\n1 0 0 0\n2 1 0 0\n" + tag + " 0 1 0\n", "1\n1 2 2 0 1 1 2 " + tag + "\n"));
+    EXPECT_EQ(read_gmsh(file.path()).nodes.size(), 3u);
+  }
+  EXPECT_LT(peak() - before, 100);
+}
+
+TEST(Gmsh, RefusesAMeshFileThatDoesNotFitIntoMemoryBeforeItIsRead) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory / "hole.msh").string();
+  std::ofstream(file) << "$MeshFormat\n";
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 40);
+  try {
+    read_gmsh(file);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_TRUE(contains(e.what(), "hole.msh\" needs at least about 2.2 TB of memory; this process may have ")) << e.what();
+  }
+}
+
+TEST(Gmsh, RefusesNamesThatAreNotUtf8) {
+  EXPECT_TRUE(contains(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"W\xe4nde\"\n$EndPhysicalNames\n"), "is not UTF-8."));
 }
 
 TEST(Gmsh, RefusesAPhysicalTagThatHasNoAbsoluteValue) {

@@ -6,7 +6,7 @@ find_package(fmt REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 # None has a file for pkg-config or CMake everywhere. MUMPS comes with PETSc and is the same library that PETSc uses.
-foreach(foreign metis dmumps lapack)
+foreach(foreign metis dmumps lapack blas)
   if(NOT TARGET karcher_foreign::${foreign})
     find_library(KARCHER_${foreign}_LIBRARY ${foreign} REQUIRED)
     add_library(karcher_foreign::${foreign} UNKNOWN IMPORTED)

@@ -6,9 +6,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <functional>
+#include <sstream>
 
 #include "app/launch.hpp"
 #include "app/ranks.hpp"
+#include "app/standard_streams.hpp"
 #include "app/verbs.hpp"
 #include "karcher/version.hpp"
 
@@ -30,6 +32,15 @@ void rank_option(CLI::App& verb, int& ranks) {
       ->check(CLI::Range(1, 100000));
 }
 
+/// The exit code of a verb, unless what it is for could not be printed.
+int with_output(int code, bool needed) {
+  const std::string failure = output_failure();
+  if (failure.empty()) return code;
+  fmt::print(stderr, "{}: standard output cannot be written: {}.{}\n", needed ? "error" : "warning", failure,
+             needed ? "" : " The results are not touched by that.");
+  return needed && code == 0 ? 3 : code;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
@@ -37,8 +48,15 @@ int command_line(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.set_help_all_flag("--help-all", "help of all verbs");
   app.set_version_flag("--version", std::string(version_string));
-  int ranks = 1;
+  int ranks = 0;          // as many as there are
+  bool prints = true;     // is standard output what the verb is for?
+  bool computes = false;  // does it need MPI and the BLAS?
   std::function<int()> action;
+
+  const auto computing = [&](const std::function<int()>& verb) {
+    action = [&ranks, verb] { return on_ranks(ranks, verb); };
+    computes = true;
+  };
 
   RunOptions run_options;
   CLI::App& run_verb = *app.add_subcommand("run", "solve a problem and write its results");
@@ -47,14 +65,17 @@ int command_line(int argc, char** argv) {
   run_verb.add_option("-o,--output", run_options.read.output, "directory of results, instead of the file's")->type_name("DIR");
   run_verb.add_flag("-q,--quiet", run_options.quiet, "print errors only");
   run_verb.add_flag("--resume", run_options.resume, "go on after the last finished load step of the results");
-  run_verb.callback([&] { action = [&] { return on_ranks([&] { return run(run_options); }); }; });
+  run_verb.callback([&] {
+    computing([&] { return run(run_options); });
+    prints = false;
+  });
 
   EvaluateOptions evaluate_options;
   CLI::App& evaluate_verb = *app.add_subcommand("evaluate", "energies and norm of the gradient at the initial configuration, without solving");
   reading_options(evaluate_verb, evaluate_options.file, evaluate_options.read);
   rank_option(evaluate_verb, ranks);
   evaluate_verb.add_flag("--json", evaluate_options.json, "print JSON, nothing else");
-  evaluate_verb.callback([&] { action = [&] { return on_ranks([&] { return evaluate(evaluate_options); }); }; });
+  evaluate_verb.callback([&] { computing([&] { return evaluate(evaluate_options); }); });
 
   ConvergeOptions converge_options;
   CLI::App& converge_verb = *app.add_subcommand("converge", "solve on refined meshes; errors against [exact] or the finest level, and their orders");
@@ -68,13 +89,16 @@ int command_line(int argc, char** argv) {
       ->type_name("DIR");
   converge_verb.add_flag("--json", converge_options.json, "print JSON, nothing else");
   converge_verb.add_flag("-q,--quiet", converge_options.quiet, "print errors only");
-  converge_verb.callback([&] { action = [&] { return on_ranks([&] { return converge(converge_options); }); }; });
+  converge_verb.callback([&] {
+    computing([&] { return converge(converge_options); });
+    prints = converge_options.json;
+  });
 
   CheckOptions check_options;
   CLI::App& check_verb = *app.add_subcommand("check", "read and resolve everything, and print what is there");
   reading_options(check_verb, check_options.file, check_options.read);
   check_verb.add_flag("--derivatives", check_options.derivatives, "compare gradient and Hessian with differences of the energy");
-  check_verb.callback([&] { action = [&] { return on_ranks([&] { return check(check_options); }); }; });
+  check_verb.callback([&] { computing([&] { return check(check_options); }); });
 
   ViewOptions view_options;
   std::vector<double> direction;
@@ -130,15 +154,19 @@ int command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err);
+    fmt::print("{}", out.str());
+    fmt::print(stderr, "{}", err.str());
+    return with_output(code == 0 ? 0 : 2, true);
   }
   if (!action) {
     fmt::print(stderr, "{}", app.help());
     return 2;
   }
-  if (const std::optional<int> code = launch_ranks(ranks, argc, argv)) return *code;
-  return action();
+  if (computes) use_one_blas_thread(argv);
+  const std::optional<int> code = launch_ranks(ranks, argc, argv);
+  return with_output(code ? *code : action(), prints);
 }
 
 }  // namespace karcher::app

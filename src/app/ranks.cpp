@@ -1,8 +1,10 @@
 #include "app/ranks.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -23,6 +25,17 @@ bool is_out_of_memory(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error);
 }
 
+/// What there is to tell before MPI can be asked to pass it on: one process tells it itself.
+std::string trouble_before_mpi() {
+  try {
+    take_library_memory();
+    return "";
+  } catch (const Error& error) {
+    if (under_launcher().empty()) throw;
+    return error.what();
+  }
+}
+
 }  // namespace
 
 int tell_error(const std::exception& error) {
@@ -36,9 +49,22 @@ int tell_error(const std::exception& error) {
   return exit_code(error);
 }
 
-int on_ranks(const std::function<int()>& verb) {
+void use_one_blas_thread(char** argv) {
+  if (std::getenv("OPENBLAS_NUM_THREADS") || setenv("OPENBLAS_NUM_THREADS", "1", 0) != 0) return;
+  execv("/proc/self/exe", argv);
+}
+
+int on_ranks(int asked_for, const std::function<int()>& verb) {
+  const std::string trouble = trouble_before_mpi();
   const PetscSession session;
+  report_ready();
   try {
+    together([&] {
+      if (!trouble.empty()) throw Error(trouble);
+    });
+    if (asked_for > 0 && asked_for != world_size() && world_rank() == 0)
+      fmt::print(stderr, "warning: -n {} is ignored: by {} in its environment, this process belongs to a launcher, which has started {} rank{}.\n",
+                 asked_for, under_launcher(), world_size(), world_size() == 1 ? "" : "s");
     return verb();
   } catch (const std::exception& error) {
     const bool shared = dynamic_cast<const SharedInputError*>(&error) || dynamic_cast<const SharedError*>(&error);

@@ -89,6 +89,7 @@ int run(const RunOptions& options) {
     results.resume(checkpoint);
   else
     results.begin(u);
+  if (talks) report_results(results.directory().string());
   if (table && !results.replaced().empty()) table->line(results.replaced());
   std::unique_ptr<IterationsCsv> iterations;
   together([&] {

@@ -42,10 +42,9 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   TemporaryFile file{directory / fmt::format(".{}.{}.part", path.filename().string(), ::getpid())};
-  // What a killed process of this number left there, or a link that someone put there, is not written to.
-  const auto open = [&] { return ::open(file.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666); };
-  file.descriptor = open();
-  if (file.descriptor < 0 && errno == EEXIST && ::unlink(file.path.c_str()) == 0) file.descriptor = open();
+  // What has that name is of a killed process of the same number, or somebody else's trap: it is removed, never followed or written into.
+  ::unlink(file.path.c_str());
+  file.descriptor = ::open(file.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file.descriptor < 0) refuse(path, errno);
   write_all(file.descriptor, content, path);
   if (::fsync(file.descriptor) != 0 && errno != EINVAL && errno != EROFS) refuse(path, errno);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,9 +13,9 @@ namespace {
 constexpr const char* columns = "{:>6} {:>20} {:>12} {:>12} {:>12} {:>12} {:>10}  {}\n";
 
 /// Columns of the terminal; a longer transient line would wrap and could not be erased.
-std::size_t terminal_width(std::FILE* out) {
+std::size_t terminal_width() {
   winsize size{};
-  return ::ioctl(::fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 /// A number of the table, or nothing where there is nothing to tell.
@@ -38,7 +39,7 @@ void ConsoleTable::erase_transient() {
 void ConsoleTable::transient(const std::string& text) {
   if (!terminal_) return;
   erase_transient();
-  std::fputs(text.substr(0, terminal_width(out_) - 1).c_str(), out_);
+  std::fputs(text.substr(0, terminal_width() - 1).c_str(), out_);
   std::fflush(out_);
   transient_shown_ = true;
 }

@@ -5,6 +5,7 @@
 #include <petscsys.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "karcher/mesh/partition.hpp"
 #include "karcher/solve/collectives.hpp"
 #include "karcher/solve/petsc.hpp"
+#include "karcher/solve/together.hpp"
 #include "solve/star_forest.hpp"
 
 namespace karcher {
@@ -78,11 +80,14 @@ struct Ldlt::Mumps {
     id.job = job;
     dmumps_c(&id);
   }
+  /// INFOG is the same on all ranks.
   void require(const char* what) const {
     if (info(1) >= 0) return;
-    if (info(1) == -13 || info(1) == -9 || info(1) == -8)
-      throw Error(fmt::format("There is not enough memory to {} a matrix of {} unknowns (MUMPS {}, {}).", what, id.n, info(1), info(2)));
-    throw Error(fmt::format("MUMPS could not {} a matrix of {} unknowns: INFOG(1) = {}, INFOG(2) = {}.", what, id.n, info(1), info(2)));
+    // Allocations that failed (in the analysis -5, -7), and room for delayed pivots that was doubled in vain (-8, -9).
+    constexpr std::array<int, 5> of_memory = {-5, -7, -8, -9, -13};
+    if (std::count(of_memory.begin(), of_memory.end(), info(1)) > 0)
+      throw SharedError(fmt::format("There is not enough memory to {} a matrix of {} unknowns (MUMPS {}, {}).", what, id.n, info(1), info(2)));
+    throw SharedError(fmt::format("MUMPS could not {} a matrix of {} unknowns: INFOG(1) = {}, INFOG(2) = {}.", what, id.n, info(1), info(2)));
   }
 };
 

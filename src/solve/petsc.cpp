@@ -1,12 +1,18 @@
 #include "karcher/solve/petsc.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <petscsys.h>
+#include <sys/mman.h>
 
 #include <cstdlib>
 
 #include "karcher/error.hpp"
+#include "karcher/memory.hpp"
 #include "solve/check_petsc.hpp"
+
+extern "C" void dsymv_(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda, const double* x, const int* dx,
+                       const double* beta, double* y, const int* dy, std::size_t);
 
 namespace karcher {
 namespace {
@@ -39,6 +45,8 @@ PetscSession::PetscSession(const std::string& options) {
   char* words[] = {name, no_file, no_signals, nullptr};
   int count = 3;
   char** arguments = words;
+  // One process needs no daemon beside it, which Open MPI would start, and could not without a PATH.
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   if (PetscInitialize(&count, &arguments, nullptr, nullptr)) throw Error("PETSc did not start.");
   session_running = true;
   check_petsc(PetscPushErrorHandler(keep_message, nullptr));
@@ -52,6 +60,21 @@ PetscSession::~PetscSession() {
   PetscPopErrorHandler();
   PetscFinalize();
   session_running = false;
+}
+
+void take_library_memory() {
+  if (!dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) return;
+  // It asks for its buffer again and again until there is memory: so whether there is, with something left for the rest, is asked first.
+  constexpr std::size_t buffer = 128 << 20, rest = 16 << 20;
+  void* room = mmap(nullptr, buffer + rest, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw Error(fmt::format("The memory is used up before the work begins: the BLAS takes {} for itself; this process may have {}.",
+                            bytes_text(static_cast<double>(buffer)), bytes_text(memory_limit())));
+  munmap(room, buffer + rest);
+  const int n = 1;  // small or not, this one asks for the buffer
+  const double one = 1;
+  double y = 0;
+  dsymv_("U", &n, &one, &one, &n, &one, &n, &one, &y, &n, 1);
 }
 
 int world_rank() {

@@ -49,24 +49,38 @@ class Workshop {
     std::filesystem::remove(directory_ / ".stderr");
     return o;
   }
-  /// Starts "karcher ARGUMENTS", sends it SIGINT as soon as `ready`, and waits for it. \returns its exit code
-  template <class Ready>
-  int interrupted(const std::string& arguments, Ready ready) const {
+  /// Starts "karcher ARGUMENTS", calls act(its process) as soon as `ready`, or it has ended, and waits for it.
+  template <class Ready, class Act>
+  Outcome meanwhile(const std::string& arguments, Ready ready, Act act) const {
     const pid_t child = fork();
     if (child == 0) {
-      const std::string command =
-          "cd '" + directory().string() + "' && exec '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments + " >/dev/null 2>&1";
+      const std::string command = "cd '" + directory().string() + "' && exec '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
+                                  " >.stdout 2>.stderr </dev/null";
       execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
     int status = 0;
-    while (!ready()) {
-      if (waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
-      usleep(20000);
+    bool ended = false;
+    while (!ended && !ready()) {
+      ended = waitpid(child, &status, WNOHANG) == child;
+      usleep(10000);
     }
-    kill(child, SIGINT);
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
+    if (!ended) {
+      act(child);
+      waitpid(child, &status, 0);
+    }
+    Outcome o;
+    o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    o.out = content(directory_ / ".stdout");
+    o.err = content(directory_ / ".stderr");
+    std::filesystem::remove(directory_ / ".stdout");
+    std::filesystem::remove(directory_ / ".stderr");
+    return o;
+  }
+  /// The exit code of "karcher ARGUMENTS" that gets SIGINT as soon as `ready`.
+  template <class Ready>
+  int interrupted(const std::string& arguments, Ready ready) const {
+    return meanwhile(arguments, ready, [](pid_t process) { kill(process, SIGINT); }).code;
   }
   /// Names of everything in the directory.
   std::set<std::string> files() const {

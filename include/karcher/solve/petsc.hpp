@@ -24,6 +24,10 @@ class PetscSession {
   bool initial_ = false;
 };
 
+/// Makes the BLAS take the memory that it works in, once and for all. OpenBLAS takes it at its first call, which is the first factorisation otherwise; where no
+/// memory is left by then, it waits for ever. \throws Error if there is not enough, on this rank
+void take_library_memory();
+
 /// Rank of this process and number of ranks; start a session if there is none.
 int world_rank();
 int world_size();

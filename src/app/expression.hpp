@@ -49,7 +49,7 @@ class Scope {
   /// Makes a name known to the expressions compiled later. \throws InputError if the name is not a name, or is taken
   void define(const std::string& name, const Expression& value, const Place& place);
   /// Operations, with those of the parameters that they use, that all expressions of a file may have: a chain of parameters makes each of its uses long.
-  static constexpr std::size_t most_operations = 1000000;
+  static constexpr std::size_t most_operations = 10000000;
   /// \param key for messages \param place of the first character of the text \throws InputError with the place of the error, or if there are too many operations
   Expression compile(const std::string& text, const std::string& key, const Place& place) const;
   std::vector<std::string> names() const { return symbols_.names(); }

@@ -124,9 +124,10 @@ LoadStepSummary summarize(const StepReport& report) {
 
 std::vector<std::string> distinct_names(std::vector<std::string> names) {
   std::set<std::string> taken;
+  std::map<std::string, int> last;  // numbers up to it are taken
   for (std::string& n : names) {
     std::string candidate = n;
-    for (int k = 2; !taken.insert(candidate).second; ++k) candidate = fmt::format("{}-{}", n, k);
+    for (int& k = last.try_emplace(n, 1).first->second; !taken.insert(candidate).second;) candidate = fmt::format("{}-{}", n, ++k);
     n = candidate;
   }
   return names;

@@ -90,7 +90,8 @@ void require_periodic(const Problem& problem, int f, const Space& space, const s
   }
 }
 
-std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, const Discretisation& d, const Layout& layout) {
+std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, const ReferenceSpec& stress_free, const Discretisation& d,
+                                 const Layout& layout) {
   const Region& whole = d.mesh->region(spec.on);
   TermInput input;
   input.mesh = d.mesh;
@@ -103,7 +104,6 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.parameters = spec.parameters;
   input.choices = spec.choices;
   input.quadrature_degree = problem.quadrature;
-  const ReferenceSpec stress_free = reference(problem, *d.mesh);
   input.reference_position = stress_free.position;
   input.reference_order = stress_free.order;
   input.t = problem.continuation.from;
@@ -221,8 +221,9 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
     m.warnings = m.discretisation.mesh->warnings;
     std::vector<std::unique_ptr<Term>> terms;
     std::vector<std::string> names;
+    const ReferenceSpec stress_free = reference(problem, *m.discretisation.mesh);
     for (const TermSpec& spec : problem.terms) {
-      terms.push_back(build_term(problem, spec, m.discretisation, *m.layout));
+      terms.push_back(build_term(problem, spec, stress_free, m.discretisation, *m.layout));
       names.push_back(terms.back()->name());
       for (const std::string& warning : terms.back()->warnings()) m.warnings.push_back(spec.place.text() + ": " + warning);
     }

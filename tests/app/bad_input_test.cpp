@@ -75,7 +75,7 @@ std::string repeated(const std::string& text, int times) {
 /// p0 = 1, and each parameter of the 2000 others is the one before and x.
 std::string chain_of_parameters() {
   std::string s = "p0 = 1\n";
-  for (int i = 1; i <= 2000; ++i) s += fmt::format("p{} = \"p{} + x\"\n", i, i - 1);
+  for (int i = 1; i <= 5000; ++i) s += fmt::format("p{} = \"p{} + x\"\n", i, i - 1);
   return s;
 }
 
@@ -148,8 +148,8 @@ std::vector<Mistake> mistakes() {
       {"UnknownNameOfALongName", with("load = 1.0", "load = 1.0\na = \"" + std::string(500000, 'q') + "\""), ":5:6: ", {"is not known."}},
       {"ParametersThatMakeEachOtherLong",
        with("load = 1.0", "load = 1.0\n" + chain_of_parameters()),
-       ":1419:10: ",
-       {"up to parameters.p1414, the expressions of the file have more than 1000000 operations"}},
+       ":4477:10: ",
+       {"up to parameters.p4472, the expressions of the file have more than 10000000 operations"}},
       {"KeyOfManyParts", good + "[" + repeated("a.", 200000) + "a]\n", ":49:21: ", {"a key of more than 10 parts is none of a problem file."}},
       {"KeyOfManyPartsBehindStrings",
        with("\"A strip\"", "\"\"\"a \\\" b\"\"\"\"\"") + "'\"'." + repeated("a.", 200000) + "a = 1 # \"\n",

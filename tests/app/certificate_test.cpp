@@ -1,5 +1,6 @@
 // What a run says of its end: that the start is the answer, and how many eigenvalues are negative or neutral.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -98,6 +99,30 @@ TEST(Certificate, OfAPlateThatCanSwingHasOneNeutralEigenvalue) {
   const json step = last_step(plate + hinges, waves);
   EXPECT_EQ(step["negative_eigenvalues"], 0);
   EXPECT_EQ(step["neutral_eigenvalues"], 1);
+}
+
+TEST(Certificate, OfTwoFreeHalvesHasTwelveNeutralEigenvalues) {
+  // Squares of 2 x 2 cells that touch along x = 1, where the nodes are double.
+  std::string nodes, cells;
+  for (int half = 0; half < 2; ++half)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const int n = 9 * half + 3 * j + i + 1;
+        nodes += fmt::format("{} {} {} 0\n", n, half + 0.5 * i, 0.5 * j);
+        if (i < 2 && j < 2) cells += fmt::format("{} 3 0 {} {} {} {}\n", n, n, n + 1, n + 4, n + 3);
+      }
+  const std::string mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n18\n" + nodes + "$EndNodes\n$Elements\n8\n" + cells + "$EndElements\n";
+  const std::string halves = "[mesh]\nfile = \"halves.msh\"\n" + plate.substr(plate.find("[fields.m]"));
+  for (const std::string start : {"", " -n 2"}) {
+    const Workshop shop;
+    shop.write("halves.msh", mesh);
+    shop.write("halves.toml", halves);
+    const Outcome o = shop.karcher("run halves.toml -q" + start);
+    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    const json step = json::parse(content(shop.directory() / "halves/summary.json"))["load_steps"].back();
+    EXPECT_EQ(step["negative_eigenvalues"], 0);
+    EXPECT_EQ(step["neutral_eigenvalues"], 12);
+  }
 }
 
 TEST(Certificate, OfAPlateWithoutLoadNeedsNoIteration) {

@@ -15,6 +15,7 @@ using nlohmann::json;
 using testing::content;
 using testing::Outcome;
 using testing::strip;
+using testing::summary;
 using testing::Workshop;
 
 const std::string line = R"toml(
@@ -60,8 +61,6 @@ value = "initial"
 max_iterations = 1
 )toml";
 
-json summary_of(const Workshop& shop, const std::string& name) { return json::parse(content(shop.directory() / name / "summary.json")); }
-
 TEST(Doubt, OppositeValuesInACellAreNoMinimumOnAnyNumberOfRanks) {
   for (const char* ranks : {"", " -n 2"}) {
     const Workshop shop;
@@ -71,11 +70,11 @@ TEST(Doubt, OppositeValuesInACellAreNoMinimumOnAnyNumberOfRanks) {
     const std::string cell = "the values of the field \"u\" differ by 180 of at most 180 degrees within the cell around (0.625, 0, 0)";
     EXPECT_NE(o.err.find("initially " + cell), std::string::npos) << o.err;
     EXPECT_NE(o.out.find("warning: " + cell), std::string::npos) << o.out;
-    const json step = summary_of(shop, "line")["load_steps"][0];
+    const json step = summary(shop, "line")["load_steps"][0];
     EXPECT_EQ(step["reason"].get<std::string>().find("minimum;"), std::string::npos);
     EXPECT_NE(step["reason"].get<std::string>().find("whether the point is a minimum cannot be told: " + cell), std::string::npos) << step;
     EXPECT_EQ(step["warnings"].size(), 1u);
-    EXPECT_EQ(summary_of(shop, "line")["warnings"].size(), 1u);
+    EXPECT_EQ(summary(shop, "line")["warnings"].size(), 1u);
   }
 }
 
@@ -85,7 +84,7 @@ TEST(Doubt, ALineThatTurnsHalfwayRoundSlowlyIsAMinimumWithoutAWarning) {
   const Outcome o = shop.karcher("run line.toml --set parameters.turn=1 --set 'fields.u.initial.2=\"cos(3.141592653589793*x)\"'");
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.err, "");
-  const json step = summary_of(shop, "line")["load_steps"][0];
+  const json step = summary(shop, "line")["load_steps"][0];
   EXPECT_NEAR(step["energy"].get<double>(), 0.5 * std::numbers::pi * std::numbers::pi, 0.011);
   EXPECT_TRUE(step["warnings"].empty());
 }
@@ -95,7 +94,7 @@ TEST(Doubt, AUnitErrorIsToldByTheLargestStrainAndItsPlace) {
   shop.write("strip.toml", strip);
   const Outcome good = shop.karcher("run strip.toml --set output.report=false");
   EXPECT_EQ(good.out.find("made for strains"), std::string::npos) << good.out;
-  const json small = summary_of(shop, "strip")["load_steps"].back()["largest_strain"];
+  const json small = summary(shop, "strip")["load_steps"].back()["largest_strain"];
   EXPECT_EQ(small["energy"], "cosserat-shell");
   EXPECT_GT(small["value"].get<double>(), 1e-6);
   EXPECT_LT(small["value"].get<double>(), 0.05);
@@ -103,7 +102,7 @@ TEST(Doubt, AUnitErrorIsToldByTheLargestStrainAndItsPlace) {
 
   const Outcome wrong = shop.karcher("run strip.toml --set output.report=false --set parameters.load=0.1");
   EXPECT_NE(wrong.out.find("warning: cosserat-shell is made for strains up to about 0.2, but around ("), std::string::npos) << wrong.out;
-  const json large = summary_of(shop, "strip")["load_steps"].back();
+  const json large = summary(shop, "strip")["load_steps"].back();
   EXPECT_GT(large["largest_strain"]["value"].get<double>(), 0.2);
   EXPECT_EQ(large["warnings"].back().get<std::string>().substr(0, 45), "cosserat-shell is made for strains up to abou");
 }
@@ -114,7 +113,7 @@ TEST(Doubt, TheLargestStrainIsTheSameOnTwoRanks) {
   json strains[2];
   for (int ranks : {1, 2}) {
     EXPECT_EQ(shop.karcher("run strip.toml --set output.report=false -n " + std::to_string(ranks)).code, 0);
-    strains[ranks - 1] = summary_of(shop, "strip")["load_steps"].back()["largest_strain"];
+    strains[ranks - 1] = summary(shop, "strip")["load_steps"].back()["largest_strain"];
   }
   EXPECT_NEAR(strains[0]["value"].get<double>(), strains[1]["value"].get<double>(), 1e-8 * strains[0]["value"].get<double>());
   EXPECT_NEAR(strains[0]["place"][0].get<double>(), strains[1]["place"][0].get<double>(), 1e-12);
@@ -131,7 +130,7 @@ TEST(Doubt, TheTopologicalChargeOfAMapThatCoversTheSphereIsAWholeNumber) {
   for (const int turns : {1, -1, 2}) {
     const Outcome o = shop.karcher("run map.toml --set output.report=false --set parameters.turns=" + std::to_string(turns));
     ASSERT_LE(o.code, 1) << o.err;
-    const double charge = summary_of(shop, "map")["load_steps"].back()["topological_charge"]["n"];
+    const double charge = summary(shop, "map")["load_steps"].back()["topological_charge"]["n"];
     EXPECT_NEAR(std::abs(charge), std::abs(turns), 1e-9) << turns;
     EXPECT_EQ(charge > 0, turns > 0);
   }

@@ -81,13 +81,6 @@ report = false
          more;
 }
 
-json run(const Workshop& shop, const std::string& problem, const std::string& arguments = "") {
-  shop.write("problem.toml", problem);
-  const Outcome o = shop.karcher("run problem.toml -q -o out " + arguments);
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
-  return o.code == 0 ? summary(shop, "out") : json();
-}
-
 // 1/2 int |grad u|^2 of u = (cos 2 pi x, sin 2 pi x) is 2 pi^2; geodesic interpolation has that map exactly.
 TEST(Periodic, AMapThatWindsOnceAroundTheSquareHasTheEnergyTwoPiSquared) {
   for (const int version : {2, 4})

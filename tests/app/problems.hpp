@@ -2,6 +2,8 @@
 /// \file
 /// Problems that several tests of the program run.
 
+#include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -9,16 +11,8 @@
 
 namespace karcher::testing {
 
-/// A strip, clamped at the left, pulled up at the right; two load steps.
-inline const std::string strip = R"toml(title = "A strip"
-[parameters]
-load = 2e-6
-L = 2
-[mesh]
-generate = "rectangle"
-size = ["L", 1]
-cells = [4, 2]
-[fields.m]
+/// Fields and energy of a soft shell.
+inline const std::string soft_shell = R"toml([fields.m]
 manifold = "R3"
 order = 2
 [fields.Q]
@@ -33,7 +27,18 @@ young = 1.2
 poisson = 0
 mu_c = 0.5
 L_c = 0.01
-[[loads]]
+)toml";
+
+/// A strip, clamped at the left, pulled up at the right; two load steps.
+inline const std::string strip = R"toml(title = "A strip"
+[parameters]
+load = 2e-6
+L = 2
+[mesh]
+generate = "rectangle"
+size = ["L", 1]
+cells = [4, 2]
+)toml" + soft_shell + R"toml([[loads]]
 type = "traction"
 field = "m"
 on = "right"
@@ -62,6 +67,23 @@ quantity = "rotation-vector"
 
 inline nlohmann::json summary(const Workshop& shop, const std::string& directory) {
   return nlohmann::json::parse(content(shop.directory() / directory / "summary.json"));
+}
+
+/// Runs a problem that must end well. \returns its summary
+inline nlohmann::json run(const Workshop& shop, const std::string& problem, const std::string& arguments = "", const std::string& directory = "out") {
+  shop.write("problem.toml", problem);
+  const Outcome o = shop.karcher("run problem.toml -q -o " + directory + " " + arguments);
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  return o.code == 0 ? summary(shop, directory) : nlohmann::json();
+}
+
+/// What `check` says of a problem that it must refuse.
+inline std::string refusal(const std::string& problem) {
+  const Workshop shop;
+  shop.write("problem.toml", problem);
+  const Outcome o = shop.karcher("check problem.toml");
+  EXPECT_EQ(o.code, 2) << problem;
+  return o.err;
 }
 
 /// A single geodesic from the pole to a given angle; half way round the mean of the two ends is not unique. Ends in [continuation].

@@ -38,25 +38,14 @@ class Workshop {
   }
   /// "karcher ARGUMENTS", run in the directory. \param before shell words before it
   Outcome karcher(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + directory().string() + "' && " + before + " '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
-                                " >.stdout 2>.stderr </dev/null";
-    const int status = std::system(command.c_str());
-    Outcome o;
-    o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    o.out = content(directory_ / ".stdout");
-    o.err = content(directory_ / ".stderr");
-    std::filesystem::remove(directory_ / ".stdout");
-    std::filesystem::remove(directory_ / ".stderr");
-    return o;
+    return outcome(std::system(command(before, arguments).c_str()));
   }
   /// Starts "karcher ARGUMENTS", calls act(its process) as soon as `ready`, or it has ended, and waits for it.
   template <class Ready, class Act>
   Outcome meanwhile(const std::string& arguments, Ready ready, Act act) const {
     const pid_t child = fork();
     if (child == 0) {
-      const std::string command = "cd '" + directory().string() + "' && exec '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
-                                  " >.stdout 2>.stderr </dev/null";
-      execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+      execl("/bin/sh", "sh", "-c", command("exec", arguments).c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
     int status = 0;
@@ -69,13 +58,7 @@ class Workshop {
       act(child);
       waitpid(child, &status, 0);
     }
-    Outcome o;
-    o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    o.out = content(directory_ / ".stdout");
-    o.err = content(directory_ / ".stderr");
-    std::filesystem::remove(directory_ / ".stdout");
-    std::filesystem::remove(directory_ / ".stderr");
-    return o;
+    return outcome(status);
   }
   /// The exit code of "karcher ARGUMENTS" that gets SIGINT as soon as `ready`.
   template <class Ready>
@@ -90,6 +73,21 @@ class Workshop {
   }
 
  private:
+  std::string command(const std::string& before, const std::string& arguments) const {
+    return "cd '" + directory().string() + "' && " + before + " '" + std::string(KARCHER_BINARY_DIR) + "/karcher' " + arguments +
+           " >.stdout 2>.stderr </dev/null";
+  }
+  /// Of a process that has ended with a status of waitpid.
+  Outcome outcome(int status) const {
+    Outcome o;
+    o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    o.out = content(directory_ / ".stdout");
+    o.err = content(directory_ / ".stderr");
+    std::filesystem::remove(directory_ / ".stdout");
+    std::filesystem::remove(directory_ / ".stderr");
+    return o;
+  }
+
   TemporaryDirectory directory_;
 };
 

@@ -46,21 +46,7 @@ std::string probe(const std::string& field, const std::string& at, const std::st
   return "[[probes]]\nname = \"" + field + "\"\nfield = \"" + field + "\"\nat = " + at + "\nquantity = \"" + quantity + "\"\n";
 }
 
-json run(const std::string& problem, const std::string& arguments = "") {
-  const Workshop shop;
-  shop.write("problem.toml", problem);
-  const Outcome o = shop.karcher("run problem.toml -q -o out " + arguments);
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
-  return o.code == 0 ? summary(shop, "out") : json();
-}
-
-std::string refusal(const std::string& problem) {
-  const Workshop shop;
-  shop.write("problem.toml", problem);
-  const Outcome o = shop.karcher("check problem.toml");
-  EXPECT_EQ(o.code, 2) << problem;
-  return o.err;
-}
+json run(const std::string& problem, const std::string& arguments = "") { return testing::run(Workshop(), problem, arguments); }
 
 const std::string push = "[[loads]]\ntype = \"volume\"\nfield = \"m\"\nvalue = [0, 0, \"2e-4*t\"]\n";
 const std::string small = "size = [2, 1]\ncells = [4, 2]\n";

@@ -283,9 +283,8 @@ class ShellTerm final : public Term {
     if (worst > 0) throw InputError(complaint);
     if (soft_drilling)
       warnings_.emplace_back(
-          "cosserat-shell: the couple modulus mu_c is 0 and L_c below the thickness, so hardly anything holds the drilling rotations, and the shell "
-          "gives way to "
-          "tension by wrinkling them. A classical shell has mu_c = mu.");
+          "cosserat-shell: the couple modulus mu_c is 0 and L_c below the thickness, so hardly anything holds the drilling rotations, and the "
+          "shell gives way to tension by wrinkling them. A classical shell has mu_c = mu.");
     if (indefinite > 0)
       warnings_.push_back(
           fmt::format("cosserat-shell: the shell is so thick for its curvature that the energy density is not positive definite in {} cells, the "

@@ -68,6 +68,7 @@ check:
 	@scripts/check_dependencies.py --self-test
 	@scripts/check_dependencies.py
 	@scripts/check_documents.py
+	@scripts/planted_faults.py --check
 
 format:
 	@scripts/install_packages.sh check

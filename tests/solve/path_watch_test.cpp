@@ -45,7 +45,14 @@ TEST(PathWatch, IsSilentOnSmoothPathsThatBend) {
   EXPECT_TRUE(told(even, [](double t) { return std::sqrt(11 - t); }).empty());  // steep before a limit point
 }
 
+TEST(PathWatch, TellsAStateThatIsTenTimesAsFarFromItsExtrapolationAsThoseBefore) {
+  // Second differences 1 and then 9 or 11.
+  for (const double last : {11.0, 13.0})
+    EXPECT_EQ(told({0, 1, 2, 3}, [&](double t) { return t < 1.5 ? 0 : t < 2.5 ? 1 : last; }).size(), last > 12 ? 1u : 0u) << last;
+}
+
 TEST(PathWatch, IsSilentWhereLoadStepsAreUneven) {
+  EXPECT_TRUE(told({0, 0.1, 0.2, 5.2}, [](double t) { return t * t; }).empty());
   EXPECT_TRUE(told({0, 0.1, 0.2, 1.2, 1.3, 3.3, 3.4, 3.5, 5.5}, [](double t) { return t * t; }).empty());
 }
 

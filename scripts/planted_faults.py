@@ -146,8 +146,10 @@ def plant_all(faults, directory, jobs):
             copy = Copy(directory / str(number), max(1, (os.cpu_count() or 1) // jobs))
             copy.renew()
             copy.compile(tests, must=True)
-            for test in tests:
-                if by := copy.test({"tests": [test], "ranks": sorted({r for f in faults if test in f["tests"] for r in f["ranks"]})}):
+            for test, selection in sorted({(t, f.get("filter")) for f in faults for t in f["tests"]}, key=str):
+                alike = [f for f in faults if test in f["tests"] and f.get("filter") == selection]
+                without = {"tests": [test], "ranks": sorted({r for f in alike for r in f["ranks"]})} | ({"filter": selection} if selection else {})
+                if by := copy.test(without):
                     raise Wrong(f"Without any fault, the tests fail: {by}.")
             while not trouble:
                 fault = todo.get_nowait()

@@ -97,6 +97,9 @@ void doc_generators() {
   }
 }
 
+/// "with material = hencky or exp-hencky"
+std::string condition_text(const Condition& only) { return fmt::format("with {} = {}", only.choice, join_names(only.words, " or ")); }
+
 void doc_term(const EnergyInfo& info) {
   fmt::print("{}\n", info.type);
   print_wrapped(info.description, 2);
@@ -112,11 +115,13 @@ void doc_term(const EnergyInfo& info) {
     facts += p.default_value ? fmt::format(", default {}", *p.default_value) : std::string(", must be given");
     if (p.minimum > -std::numeric_limits<double>::infinity())
       facts += fmt::format(", {} {}", p.minimum_allowed ? "at least" : "greater than", p.minimum);
+    if (p.only) facts += ", " + condition_text(*p.only);
     fmt::print("  {:<11} {} ({})\n", p.name, p.description, facts);
   }
   if (info.lame) fmt::print("  {:<11} instead of mu and lambda: Young's modulus and Poisson's ratio\n", "young, poisson");
   for (const Choice& c : info.choices)
-    fmt::print("  {:<11} {}: {} (default {})\n", c.name, c.description, join_names(c.values, ", "), c.values.front());
+    fmt::print("  {:<11} {}: {} (default {}{})\n", c.name, c.description, join_names(c.values, ", "), c.values.front(),
+               c.only ? ", " + condition_text(*c.only) : std::string());
 }
 
 /// Prints every key whose name or text has the word. \returns false if there is none

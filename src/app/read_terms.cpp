@@ -99,7 +99,12 @@ std::vector<KeyInfo> term_keys(const std::string& section, const EnergyInfo& inf
   }
   if (info.lame)
     for (const char* name : {"young", "poisson"}) keys.push_back({.name = name, .kind = KeyKind::expression});
-  for (const Choice& c : info.choices) keys.push_back({.name = c.name, .kind = KeyKind::word, .standard = c.values.front(), .words = c.values});
+  for (const Choice& c : info.choices) {
+    if (c.is_flag())
+      keys.push_back({.name = c.name, .kind = KeyKind::flag, .standard = false});
+    else
+      keys.push_back({.name = c.name, .kind = KeyKind::word, .standard = c.values.front(), .words = c.values});
+  }
   return keys;
 }
 
@@ -116,6 +121,48 @@ void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const 
   const std::vector<Expression> e = s.expressions(p.name, problem.scope, size);
   for (std::size_t i = 0; i < size; ++i)
     parameters[fmt::format("{}[{}]", p.name, i)] = in_range(e[i], p, fmt::format("{}.{}", s.path(p.name), i), place);
+}
+
+/// Keys of the parameters and choices that go with the choices of a term.
+std::vector<std::string> keys_that_go(const EnergyInfo& info, const std::map<std::string, std::string>& choices) {
+  std::vector<std::string> keys;
+  const auto add = [&](const auto& list) {
+    for (const auto& entry : list)
+      if (!entry.only || entry.only->holds(choices)) keys.push_back(entry.name);
+  };
+  add(info.parameters);
+  add(info.choices);
+  return keys;
+}
+
+/// Refuses what does not go with the choices of a term, if it is given.
+void refuse_stranger(const Section& s, const std::string& key, const Condition& only, const EnergyInfo& info, const TermSpec& spec) {
+  if (!s.has(key)) return;
+  const auto chosen = spec.choices.find(only.choice);
+  refuse(s.place(key),
+         fmt::format("{} goes with {} = \"{}\", not with \"{}\", with which go: {}.", s.path(key), only.choice, join_names(only.words, "\" or \""),
+                     chosen == spec.choices.end() ? "" : chosen->second, join_names(keys_that_go(info, spec.choices))));
+}
+
+void read_choices(Section& s, const EnergyInfo& info, TermSpec& spec) {
+  for (const Choice& c : info.choices)
+    if (!c.only || c.only->holds(spec.choices)) spec.choices[c.name] = c.is_flag() ? (s.flag(c.name) ? "true" : "false") : s.word(c.name);
+  for (const Choice& c : info.choices)
+    if (c.only && !c.only->holds(spec.choices)) refuse_stranger(s, c.name, *c.only, info, spec);
+}
+
+void read_parameters(Section& s, const EnergyInfo& info, const ProblemFile& problem, TermSpec& spec) {
+  const auto is_modulus = [](const Parameter& p) { return p.name == "mu" || p.name == "lambda"; };
+  for (const Parameter& p : info.parameters) {
+    if (!p.only || p.only->holds(spec.choices)) continue;
+    refuse_stranger(s, p.name, *p.only, info, spec);
+    if (info.lame && is_modulus(p))
+      for (const char* key : {"young", "poisson"}) refuse_stranger(s, key, *p.only, info, spec);
+  }
+  const bool young = info.lame && (s.has("young") || s.has("poisson"));
+  if (young) lame_of_young(s, problem.scope, spec.parameters);
+  for (const Parameter& p : info.parameters)
+    if ((!p.only || p.only->holds(spec.choices)) && !(young && is_modulus(p))) read_parameter(s, p, spec, problem, spec.parameters);
 }
 
 void read_fields(Section& s, const EnergyInfo& info, const ProblemFile& problem, TermSpec& spec) {
@@ -164,11 +211,8 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     spec.on = s.text("on");
     spec.on_place = s.place("on");
     read_fields(s, info, problem, spec);
-    for (const Choice& c : info.choices) spec.choices[c.name] = s.word(c.name);
-    const bool young = info.lame && (s.has("young") || s.has("poisson"));
-    if (young) lame_of_young(s, problem.scope, spec.parameters);
-    for (const Parameter& p : info.parameters)
-      if (!young || (p.name != "mu" && p.name != "lambda")) read_parameter(s, p, spec, problem, spec.parameters);
+    read_choices(s, info, spec);
+    read_parameters(s, info, problem, spec);
     problem.terms.push_back(std::move(spec));
     resolved.push_back(s.resolved());
   }

@@ -57,6 +57,7 @@ TermInfo term_info(const EnergyInfo& info, const TermInput& input) {
 std::vector<std::string> parameter_keys(const EnergyInfo& info, const TermInput& input) {
   std::vector<std::string> keys;
   for (const Parameter& p : info.parameters) {
+    if (p.only && !p.only->holds(input.choices)) continue;
     const int size = p.size == Parameter::ambient ? input.field(0).manifold->ambient : p.size;
     if (p.size == 1) keys.push_back(p.name);
     for (int i = 0; i < size && p.size != 1; ++i) keys.push_back(fmt::format("{}[{}]", p.name, i));

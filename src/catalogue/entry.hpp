@@ -18,7 +18,7 @@ struct Entry {
 
 /// What the term tells of itself.
 TermInfo term_info(const EnergyInfo& info, const TermInput& input);
-/// Keys of all parameters in the order of the table, arrays entry by entry: "h", "H[0]", "H[1]", "H[2]".
+/// Keys of all parameters that there are with these choices, in the order of the table, arrays entry by entry: "h", "H[0]", "H[1]", "H[2]".
 std::vector<std::string> parameter_keys(const EnergyInfo& info, const TermInput& input);
 
 }  // namespace karcher::catalogue

@@ -91,7 +91,7 @@ void require_periodic(const Problem& problem, int f, const Space& space, const s
 }
 
 std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, const ReferenceSpec& stress_free, const Discretisation& d,
-                                 const Layout& layout) {
+                                 const std::shared_ptr<const Configuration>& initial, const Layout& layout) {
   const Region& whole = d.mesh->region(spec.on);
   TermInput input;
   input.mesh = d.mesh;
@@ -107,6 +107,7 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.reference_position = stress_free.position;
   input.reference_order = stress_free.order;
   input.t = problem.continuation.from;
+  input.initial = initial;
   return at_place(spec.place, [&] { return spec.make(std::move(input)); });
 }
 
@@ -222,8 +223,9 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
     std::vector<std::unique_ptr<Term>> terms;
     std::vector<std::string> names;
     const ReferenceSpec stress_free = reference(problem, *m.discretisation.mesh);
+    const auto initial = std::make_shared<const Configuration>(m.discretisation.initial);
     for (const TermSpec& spec : problem.terms) {
-      terms.push_back(build_term(problem, spec, stress_free, m.discretisation, *m.layout));
+      terms.push_back(build_term(problem, spec, stress_free, m.discretisation, initial, *m.layout));
       names.push_back(terms.back()->name());
       for (const std::string& warning : terms.back()->warnings()) m.warnings.push_back(spec.place.text() + ": " + warning);
     }

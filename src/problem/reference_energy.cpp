@@ -25,13 +25,18 @@ double energy_of(const Term& term, const Configuration& u) {
 }
 
 /// The fields of a term in the stress-free configuration, enlarged about its middle.
-Configuration at_reference(const Problem& problem, const DiscreteProblem& model, const TermSpec& term, double enlarged) {
+Configuration at_reference(const Problem& problem, const DiscreteProblem& model, std::size_t t, double enlarged) {
+  const TermSpec& term = problem.terms[t];
   Configuration u = model.discretisation.initial;
   for (std::size_t k = 0; k < term.fields.size(); ++k) {
     const auto f = static_cast<std::size_t>(term.fields[k]);
     const Field& field = model.fields()[f];
     const int nodes = field.space->node_count(), n = field.manifold->ambient;
     if (!term.info.fields[k].moves) {
+      if (std::vector<double> values = model.functional->terms()[t]->stress_free(term.fields[k]); !values.empty()) {
+        u.values[f] = std::move(values);
+        continue;
+      }
       for (int node = 0; node < nodes; ++node) std::ranges::copy(field.manifold->standard_point, u.at(term.fields[k], node, n));
       continue;
     }
@@ -55,7 +60,7 @@ void measure_reference(const Problem& problem, DiscreteProblem& model) {
     if (!spec.info.stress_free) continue;
     const Term& term = *model.functional->terms()[t];
     std::vector<double> sums;
-    for (const double size : {1.0, 1.0 + stretch}) sums.push_back(energy_of(term, at_reference(problem, model, spec, size)));
+    for (const double size : {1.0, 1.0 + stretch}) sums.push_back(energy_of(term, at_reference(problem, model, t, size)));
     sum_over_ranks(sums);
     model.reference_energies[t] = sums[0];
     if (!(sums[0] > smallest_part * sums[1])) continue;

@@ -71,7 +71,9 @@ struct Dense {
   std::vector<double> gradient;
   std::vector<std::vector<double>> hessian;
 
-  explicit Dense(const MapProblem& p) : gradient(p.dofs()), hessian(p.dofs(), std::vector<double>(p.dofs())) {
+  /// Of a MapProblem or a BodyProblem.
+  template <class Problem>
+  explicit Dense(const Problem& p) : gradient(p.dofs()), hessian(p.dofs(), std::vector<double>(p.dofs())) {
     BlockMatrix m = p.functional->make_matrix();
     evaluation = p.functional->hessian(p.u, gradient, m);
     const auto bs = static_cast<std::size_t>(m.block_size);

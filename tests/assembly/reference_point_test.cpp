@@ -2,11 +2,11 @@
 #include "karcher/energy/reference_point.hpp"
 
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "assembly/large_stack.hpp"
 #include "assembly/map_problem.hpp"
 #include "karcher/assembly/density_term.hpp"
 #include "karcher/assembly/with_rule.hpp"
@@ -191,22 +191,6 @@ TEST(ReferencePoint, IsThatOfTheStressFreeConfigurationWhereItIsNotTheMesh) {
   EXPECT_NEAR(m[2], 0, 1e-10);
 }
 
-/// Runs work with a stack of half a gigabyte: jets of packs in 18 variables take 12 kB each, and sanitizers give every temporary a place of its own.
-template <class Work>
-void with_large_stack(Work work) {
-  pthread_attr_t attributes;
-  pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, std::size_t{1} << 29);
-  pthread_t thread;
-  const auto start = [](void* w) -> void* {
-    (*static_cast<Work*>(w))();
-    return nullptr;
-  };
-  ASSERT_EQ(pthread_create(&thread, &attributes, start, &work), 0);
-  pthread_join(thread, nullptr);
-  pthread_attr_destroy(&attributes);
-}
-
 /// The shell's density on the generic kernel: jets and the surface of the seam, against the closed-form kernel.
 TEST(ReferencePoint, LetsTheCosseratDensityRunInTheGenericKernelWithTheNumbersOfTheFastOne) {
   for (const Rule rule : {Rule::projection, Rule::geodesic})
@@ -243,7 +227,7 @@ TEST(ReferencePoint, LetsTheCosseratDensityRunInTheGenericKernelWithTheNumbersOf
         h = functional.make_matrix();
         g.resize(static_cast<std::size_t>(layout->local_dofs()));
         double energy = 0;
-        with_large_stack([&] { energy = functional.hessian(u, g, h).energy; });
+        testing::with_large_stack([&] { energy = functional.hessian(u, g, h).energy; });
         return energy;
       };
       const TermInfo info{"shell", {"membrane", "bending", "curvature"}, {}, false, {}};

@@ -6,7 +6,8 @@
 /// one argument more, that is the reference configuration at the point (reference_point.hpp), before the fields: operator()(s, u...), parts(s, u...).
 /// quantities([s,] u...) may give other numbers at the point, as an array, and static quantity_infos() says what they are, component after component.
 /// A model has at<P>(span<const P> parameters), the density at a point, P double or a pack.
-/// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules.
+/// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules. A density of a deformation and a rotation
+/// that offers energy(body strains) (body_strains.hpp) has jets in the strains instead.
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include <tuple>
 #include <utility>
 
+#include "karcher/assembly/body_strain_derivatives.hpp"
 #include "karcher/assembly/cell_batches.hpp"
 #include "karcher/interpolation/interpolation.hpp"
 
@@ -250,7 +252,17 @@ class DensityTerm : public Term {
   /// W as a function of the local coordinates of all fields.
   template <class S, class Density, std::size_t... f>
   static S density_at(const Density& rho, const Reference& reference, const States& states, std::index_sequence<f...>) {
-    return density_detail::value(rho, reference, jet_of<S, f>(states)...);
+    if constexpr (F == 2 && D > 0 && OfBodyStrains<Density, D, T>) {
+      const auto& rotation = std::get<1>(states).interpolation;
+      static_assert(std::is_same_v<typename std::decay_t<decltype(rotation)>::Chart, ProjectionChart>);
+      const auto y = rotation.local_coordinates();
+      std::array<Vec3<T>, D> rates;
+      for (int a = 0; a < D; ++a)
+        for (int i = 0; i < 3; ++i) rates[static_cast<std::size_t>(a)][i] = y[3 * (1 + a) + i];
+      return of_body_strains<S, D>(rho, std::get<0>(states).interpolation.jet().d, rotation.jet().value, rates);
+    } else {
+      return density_detail::value(rho, reference, jet_of<S, f>(states)...);
+    }
   }
   Reference reference_at(int b, int q) const {
     if constexpr (placed)

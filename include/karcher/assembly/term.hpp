@@ -70,6 +70,8 @@ class Term {
   virtual std::vector<std::array<double, native_width>> batch_quantities(const Configuration& /*u*/, int /*b*/) const { return {}; }
   /// Called when the load parameter changes, before evaluations at the new value: data that depends on t is recomputed.
   virtual void set_load_parameter(double /*t*/) {}
+  /// Nodal values of a field of the problem where the term is free of stress (EnergyInfo::stress_free); empty: its manifold's standard point everywhere.
+  virtual std::vector<double> stress_free(int /*field*/) const { return {}; }
   /// Sentences for the user about data that the term can work with but that is suspicious (empty: none).
   virtual std::vector<std::string> warnings() const { return {}; }
   /// The entity of the mesh behind index `cell` (for messages and output).

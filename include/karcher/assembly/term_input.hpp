@@ -24,8 +24,21 @@ struct TermInput {
   std::function<Vec3<double>(const Vec3<double>&)> reference_position;
   int reference_order = 2;
   double t = 0;
+  /// Nodal values at the start, for energies that are free of stress there; none, or none of a field: its manifold's standard point.
+  std::shared_ptr<const Configuration> initial;
 
   const Field& field(std::size_t slot) const { return all_fields[static_cast<std::size_t>(fields[slot])]; }
+  /// `initial` with values of all fields.
+  Configuration start() const {
+    Configuration u = initial ? *initial : Configuration{};
+    u.values.resize(all_fields.size());
+    for (std::size_t f = 0; f < all_fields.size(); ++f) {
+      if (!u.values[f].empty()) continue;
+      const std::vector<double>& standard = all_fields[f].manifold->standard_point;
+      for (int node = 0; node < all_fields[f].space->node_count(); ++node) u.values[f].insert(u.values[f].end(), standard.begin(), standard.end());
+    }
+    return u;
+  }
 };
 
 }  // namespace karcher

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,11 +38,13 @@ std::vector<const ManifoldOps*> accepted(ManifoldList<M...>) {
   return {&manifold_ops<M>()...};
 }
 
-/// A choice between words ("coupling", "material", "volumetric").
+/// A choice between words ("coupling", "material", "volumetric"); between "false" and "true" (in this order), problem files write it without quotes.
 struct Choice {
   std::string name;
   std::vector<std::string> values;  ///< first: the default
   std::string description;
+  std::optional<Condition> only{};  ///< on an earlier choice: there is none where this does not hold
+  bool is_flag() const { return values.front() == "false"; }
 };
 
 /// Something that an energy can tell of a configuration at a point, besides its density: a stress, a charge.
@@ -73,7 +77,7 @@ struct EnergyInfo {
   std::vector<std::string> parts;  ///< of the energy, where the density can tell them apart
   bool lame = false;               ///< mu and lambda may be given as young and poisson instead (the reader converts)
   bool load = false;               ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
-  /// Vanishes in the stress-free configuration: where a field that moves is the reference position and the others are their manifolds' standard points.
+  /// Vanishes in the stress-free configuration: where a field that moves is the reference position and the others are what Term::stress_free says.
   bool stress_free = false;
 
   std::string term_name() const { return load ? type + "-load" : type; }

@@ -2,11 +2,13 @@
 /// \file
 /// Parameters of energies: numbers of a problem, or functions of the place and the load parameter.
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "karcher/manifold/any_manifold.hpp"
 #include "karcher/math/tensor.hpp"
@@ -26,6 +28,17 @@ struct ParameterValue {
 
 using ParameterValues = std::map<std::string, ParameterValue>;
 
+/// Holds where a choice of the energy is one of these words.
+struct Condition {
+  std::string choice;
+  std::vector<std::string> words;
+
+  bool holds(const std::map<std::string, std::string>& choices) const {
+    const auto chosen = choices.find(choice);
+    return chosen != choices.end() && std::find(words.begin(), words.end(), chosen->second) != words.end();
+  }
+};
+
 /// Description of one parameter. A parameter with size > 1 is an array of numbers; keys in ParameterValues are then "b[0]", "b[1]", ...
 struct Parameter {
   std::string name;
@@ -33,9 +46,10 @@ struct Parameter {
   std::string description;              ///< one line
   std::optional<double> default_value;  ///< none: must be given
   double minimum = -std::numeric_limits<double>::infinity();
-  bool minimum_allowed = true;  ///< false: must be greater than minimum
-  int size = 1;                 ///< Parameter::ambient: as many as the first field has ambient coordinates
-  bool point = false;           ///< the numbers are a point of the first field's manifold, written like an initial value
+  bool minimum_allowed = true;      ///< false: must be greater than minimum
+  int size = 1;                     ///< Parameter::ambient: as many as the first field has ambient coordinates
+  bool point = false;               ///< the numbers are a point of the first field's manifold, written like an initial value
+  std::optional<Condition> only{};  ///< there is no such parameter where this does not hold
   static constexpr int ambient = -1;
 };
 

@@ -266,6 +266,14 @@ class Reader {
     if (problem_.terms.empty() && problem_.exact.empty() && !top.has("energies")) top.missing("energies");
   }
 
+  /// Whether a field is a director that is normal to a shell unless something else is said.
+  bool is_normal(int field) const {
+    for (const TermSpec& t : problem_.terms)
+      for (std::size_t k = 0; k < t.fields.size(); ++k)
+        if (t.fields[k] == field && t.info.fields[k].normal) return true;
+    return false;
+  }
+
   /// After the energies, which tell whether a field is a deformation.
   void initial_values() {
     Value all;
@@ -282,6 +290,10 @@ class Reader {
         const auto known = problem_.exact.find(static_cast<int>(i));
         if (known == problem_.exact.end()) refuse(v->place, s.path("initial") + " is \"exact\", but there is no [exact." + spec.name + "].");
         spec.initial = known->second;
+      } else if (v ? v->is(Value::Kind::text) && v->text == "normal" : is_normal(static_cast<int>(i))) {
+        if (!spec.manifold->directions) refuse(v->place, s.path("initial") + ": the normal of a surface is no point of " + spec.manifold->name + ".");
+        spec.normal = true;
+        s.note("initial", Value::of("normal"));
       } else if (v) {
         spec.initial = PointValue(*v, s.path("initial"), *spec.manifold, problem_.scope).function();
       } else if (deforms) {

@@ -148,13 +148,13 @@ std::vector<SectionInfo> make_schema() {
         word("interpolation", "projection or geodesic", described("projection where the manifold has it, else geodesic"), {"projection", "geodesic"},
              "rule that makes a function of nodal values; without meaning for R^n"),
         text("on", "region", field.on, "region that carries the field"),
-        point(
-            "initial", "point",
-            described(
-                "reference position for a deformation, else 0 for R^n, identity for groups and SPD, the last axis for spheres and hyperbolic spaces"),
-            "initial values: numbers or expressions, \"identity\" (SO3, SU2, SPD), \"reference\" (R^n: the reference position), \"exact\" (that of "
-            "[exact]). SO3: a rotation vector (3 entries), a matrix by rows (9, projected) or a quaternion (4, w first); S^n: n+1 entries, "
-            "normalised; SPD(n): n*n entries")}},
+        point("initial", "point",
+              described("reference position for a deformation, normal for the director of a shell, else 0 for R^n, identity for groups and SPD, the "
+                        "last axis for spheres and hyperbolic spaces"),
+              "initial values: numbers or expressions, \"identity\" (SO3, SU2, SPD), \"reference\" (R^n: the reference position), \"normal\" (S2, on "
+              "surfaces: the unit normal of the reference), \"exact\" (that of "
+              "[exact]). SO3: a rotation vector (3 entries), a matrix by rows (9, projected) or a quaternion (4, w first); S^n: n+1 entries, "
+              "normalised; SPD(n): n*n entries")}},
       {"energies", "[[energies]]", "An integral over a region of a density of some fields; further keys by type. Types: karcher list energies",
        term_keys},
       {"loads", "[[loads]]", "A potential that counts in the energy with a minus sign; further keys by type. Types: karcher list energies",

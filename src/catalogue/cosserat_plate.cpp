@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "catalogue/density_terms.hpp"
+#include "catalogue/shell_quadrature.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rotation.hpp"
 #include "karcher/mesh/reference_cell.hpp"
@@ -48,6 +49,7 @@ ParameterValue bounded(ParameterValue lambda) {
 std::unique_ptr<Term> make_plate(const EnergyInfo& info, const TermInput& given) {
   require_flat(given);
   TermInput input = given;
+  choose_shell_quadrature(input);
   input.parameters.at("lambda") = bounded(input.parameters.at("lambda"));
   return DensityTerms<CosseratPlate, Euclidean<3>, Rotation>::make<2>(info, input);
 }
@@ -62,7 +64,8 @@ std::vector<Entry> cosserat_plate_entries() {
       "U = R^T (d_1 m | d_2 m | R e_3), K_b = (R^T d_1 R e_3 | R^T d_2 R e_3 | 0), K = R^T grad R, W = h Wmemb(U) + h^3/12 Wbend(K_b) + h Wcurv(K):\n"
       "Wmemb(U) = mu |sym(U - I)|^2 + mu_c |skew(U - I)|^2 + mu lambda/(2 mu + lambda) 1/2 ((det U - 1)^2 + (1/det U - 1)^2)\n"
       "Wbend(K_b) = mu |sym K_b|^2 + mu_c |skew K_b|^2 + mu lambda/(2 mu + lambda) (tr K_b)^2\n"
-      "Wcurv(K) = mu L_c^(1+p) |K|^(1+p). Infinite where det U <= 0.";
+      "Wcurv(K) = mu L_c^(1+p) |K|^(1+p). Infinite where det U <= 0.\n"
+      "Default quadrature: that of cosserat-shell.";
   e.dimensions = {2};
   e.fields = {{.key = "deformation", .manifolds = {&manifold_ops<Euclidean<3>>()}, .description = "position of the midsurface", .moves = true},
               {.key = "rotation", .manifolds = {&manifold_ops<Rotation>()}, .description = "microrotation; its columns are the directors"}};

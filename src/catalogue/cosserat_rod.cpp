@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -122,6 +123,7 @@ class RodTerm : public DensityTerm<VaryingDensity<CosseratRod>, 1, LinearInterpo
 
 std::unique_ptr<Term> make_rod(const EnergyInfo& info, const TermInput& given) {
   TermInput input = given;
+  input.quadrature_degree.try_emplace(CellKind::line, 2 * std::max(input.field(0).space->order(), input.field(1).space->order()) + 1);
   const auto section = input.choices.find("section");
   if (section != input.choices.end() && section->second != "given") add_stiffnesses(input, section->second);
   std::vector<std::string> keys;
@@ -146,7 +148,8 @@ std::vector<Entry> cosserat_rod_entries() {
       "The third director is along the rod. v0, u0 are the strains of the reference position and of the initial rotation: the rod is free of stress "
       "where it "
       "starts, straight or curved.\n"
-      "A section gives A = [k_s G A, k_s G A, E A], K = [E I_1, E I_2, k_t G (I_1 + I_2)] with the second moments about d1 and d2.";
+      "A section gives A = [k_s G A, k_s G A, E A], K = [E I_1, E I_2, k_t G (I_1 + I_2)] with the second moments about d1 and d2.\n"
+      "Default quadrature: degree 2 k + 1, k the higher of the two field orders.";
   e.dimensions = {1};
   e.fields = {{.key = "deformation", .manifolds = {&manifold_ops<Euclidean<3>>()}, .description = "position of the centre line", .moves = true},
               {.key = "rotation",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "karcher/assembly/nodal_normals.hpp"
 #include "karcher/io/summary.hpp"
 #include "karcher/mesh/partition.hpp"
 #include "karcher/mesh/reference_geometry.hpp"
@@ -32,11 +33,20 @@ void add_region(Mesh& mesh, const RegionSpec& spec) {
   mesh.regions[spec.name] = at_place(spec.place, [&] { return select(mesh, spec.name, spec.dim, spec.boundary, spec.where); });
 }
 
+std::vector<Vec3<double>> reference_normals(const Problem& problem, const FieldSpec& spec, const Space& space) {
+  if (space.region().dim != 2)
+    refuse(spec.place,
+           fmt::format("the field \"{}\" starts at the normals of a surface, but lives on \"{}\" of dimension {}; give it initial values.", spec.name,
+                       space.region().name, space.region().dim));
+  const ReferenceSpec stress_free = reference(problem, space.mesh());
+  return at_place(spec.place, [&] { return nodal_normals(space, space.region(), {space.mesh(), stress_free.position, stress_free.order}); });
+}
+
 std::vector<double> initial_values(const Problem& problem, const FieldSpec& spec, const Space& space) {
   const int n = spec.manifold->ambient;
   std::vector<double> values(static_cast<std::size_t>(space.node_count() * n));
   if (!spec.initial) {
-    const std::vector<Vec3<double>> positions = reference_positions(problem, space);
+    const std::vector<Vec3<double>> positions = spec.normal ? reference_normals(problem, spec, space) : reference_positions(problem, space);
     for (int node = 0; node < space.node_count(); ++node)
       for (int i = 0; i < std::min(n, 3); ++i) values[static_cast<std::size_t>(node * n + i)] = positions[static_cast<std::size_t>(node)][i];
     return values;
@@ -64,7 +74,7 @@ void require_periodic(const Problem& problem, int f, const Space& space, const s
            fmt::format("the field \"{}\" has positions as values, which differ at the two sides of a periodic mesh; leave the sides apart with "
                        "mesh.periodic = false, or join their nodes in the mesh.",
                        spec.name));
-  if (spec.initial.asks_for_normal) return;
+  if (spec.initial.asks_for_normal || spec.normal) return;
   const auto ambient = static_cast<std::size_t>(spec.manifold->ambient);
   std::vector<double> here(ambient);
   for (const Cell& cell : space.region().cells) {

@@ -126,10 +126,8 @@ class Body {
     for (const auto& [rotation, parts] : rotations_) {
       const Field& f = model_.fields()[at(rotation)];
       hold_fixed(rotation, [&](Part& part, int node, std::size_t i) {
-        // Body coordinate i of the turn w is d_i . w, d_i the director.
-        std::array<double, 3> d{};
-        f.manifold->arrays[i].value(model_.discretisation.initial.at(rotation, node, f.manifold->ambient), d.data());
-        part.hold({0, 0, 0, d[0], d[1], d[2]});
+        const Vec3<double> axis = axis_of(*f.manifold, model_.discretisation.initial.at(rotation, node, f.manifold->ambient), i);
+        part.hold({0, 0, 0, axis[0], axis[1], axis[2]});
       });
     }
   }
@@ -163,6 +161,19 @@ class Body {
   std::vector<Part>& parts() { return parts_; }
 
  private:
+  /// Whether points turn with the body: rotations and directors.
+  static bool turns(const ManifoldOps& m) { return (m.body_axes && m.arrays.size() == 3) || m.directions; }
+  /// The axis of which the i-th tangent coordinate at a point measures the turn w: d_i . w with the body's axis d_i; for a director d, e_i . (w x d) = (d x e_i) . w.
+  static Vec3<double> axis_of(const ManifoldOps& m, const double* point, std::size_t i) {
+    std::array<double, 3> d{};
+    if (!m.directions) {
+      m.arrays[i].value(point, d.data());
+      return {d};
+    }
+    std::array<double, 6> e{};
+    m.frame(point, e.data());
+    return cross(Vec3<double>{{point[0], point[1], point[2]}}, Vec3<double>{{e[i], e[2 + i], e[4 + i]}});
+  }
   const Space& space(int field) const { return *model_.fields()[at(field)].space; }
 
   void find_parts() {
@@ -183,7 +194,7 @@ class Body {
       for (const int n : nodes) parts_of_nodes_[at(n)] = part;
       for (const int f : term.fields) {
         const Field& field = model_.fields()[at(f)];
-        if (!field.manifold->body_axes || field.manifold->arrays.size() != 3) continue;
+        if (!turns(*field.manifold)) continue;
         std::vector<int>& parts = rotations_[f];
         parts.resize(at(field.space->node_count()), -1);
         for (const int n : field.space->entity_nodes(c)) parts[at(n)] = part;

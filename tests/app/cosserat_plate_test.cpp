@@ -64,7 +64,7 @@ TEST(CosseratPlate, RefusesACurvedReferenceAndPowersBelowOne) {
   EXPECT_NE(refusal(cantilever + "type = \"cosserat-plate\"\np = 0.5\n").find("energies.0.p is 0.5; it must be at least 1"), std::string::npos);
   std::string soft = cantilever + "type = \"cosserat-plate\"\n";
   soft.replace(soft.find("poisson = 0"), 11, "poisson = -0.2");
-  EXPECT_NE(refusal(soft).find("lambda is -"), std::string::npos) << refusal(soft);
+  EXPECT_NE(refusal(soft).find("lambda is -"), std::string::npos);
 }
 
 }  // namespace

@@ -37,7 +37,9 @@ double density(const Point3& v1, const Point3& v2, const Point3& u1, const Point
   BodyStrains<2, double> e;
   e.v = {v1, v2};
   e.u = {u1, u2};
-  return CosseratPlate<double>{h, mu, lambda, mu_c, L_c, p}.energy(e);
+  double w = 0;
+  CosseratPlate<double>{h, mu, lambda, mu_c, L_c, p}.add_energy(w, e);
+  return w;
 }
 const Point3 e1{{1, 0, 0}}, e2{{0, 1, 0}};
 

@@ -10,7 +10,6 @@
 ///   (w, w): (f v^T + v f^T)/2 - (f . v) I - (g . k)/2 I,      (d_a m, w): -R [f]x,      (k, w): -1/2 [g]x,   [f]x x = f x x.
 
 #include <array>
-#include <concepts>
 
 #include "karcher/energy/body_strains.hpp"
 #include "karcher/interpolation/interpolation.hpp"
@@ -20,8 +19,8 @@ namespace karcher {
 
 /// A density of the body strains in D directions.
 template <class Density, int D, class T>
-concept OfBodyStrains = requires(const Density& w, const BodyStrains<D, Jet<T, 6 * D>>& e) {
-  { w.energy(e) } -> std::convertible_to<Jet<T, 6 * D>>;
+concept OfBodyStrains = requires(const Density& w, Jet<T, 6 * D>& sum, const BodyStrains<D, Dual<T, 6 * D>>& e) {
+  w.add_energy(sum, e);
 };
 
 /// S: Dual<T, L> or Jet<T, L> in the L = 6 (1 + D) local coordinates: m, d_1 m, ..., d_D m, w, k_1, ..., k_D.
@@ -33,16 +32,18 @@ S of_body_strains(const Density& density, const std::array<Vec3<T>, static_cast<
   constexpr int N = 6 * D, L = 6 * (1 + D), w = 3 * (1 + D);
   using E = std::conditional_t<with_hessian, Jet<T, N>, Dual<T, N>>;
   const Mat3<T> rotation = rotation_matrix(q);
-  BodyStrains<D, E> e;
+  using Variable = Dual<T, N>;
+  BodyStrains<D, Variable> e;
   std::array<Vec3<T>, D> v;
   for (std::size_t a = 0; a < D; ++a) {
     v[a] = transpose_times(rotation, m[a]);
     for (int i = 0; i < 3; ++i) {
-      e.v[a][i] = chart_detail::variable(v[a][i], static_cast<int>(a) * 6 + i, static_cast<const E*>(nullptr));
-      e.u[a][i] = chart_detail::variable(u[a][i], static_cast<int>(a) * 6 + 3 + i, static_cast<const E*>(nullptr));
+      e.v[a][i] = chart_detail::variable(v[a][i], static_cast<int>(a) * 6 + i, static_cast<const Variable*>(nullptr));
+      e.u[a][i] = chart_detail::variable(u[a][i], static_cast<int>(a) * 6 + 3 + i, static_cast<const Variable*>(nullptr));
     }
   }
-  E energy = density.energy(e);
+  E energy(0.0);
+  density.add_energy(energy, e);
   const auto slope = [&](std::size_t a, int part) {
     Vec3<T> f;
     for (int i = 0; i < 3; ++i) f[i] = chart_detail::slope(energy, static_cast<int>(a) * 6 + part * 3 + i);

@@ -7,7 +7,8 @@
 /// quantities([s,] u...) may give other numbers at the point, as an array, and static quantity_infos() says what they are, component after component.
 /// A model has at<P>(span<const P> parameters), the density at a point, P double or a pack.
 /// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules. A density of a deformation and a rotation
-/// that offers energy(body strains) (body_strains.hpp) has jets in the strains instead.
+/// that offers energy(body strains) (body_strains.hpp), or of a deformation and a director that offers energy(director strains) (director_strains.hpp), has jets in the
+/// strains instead.
 
 #include <algorithm>
 #include <array>
@@ -20,6 +21,7 @@
 
 #include "karcher/assembly/body_strain_derivatives.hpp"
 #include "karcher/assembly/cell_batches.hpp"
+#include "karcher/assembly/director_strain_derivatives.hpp"
 #include "karcher/interpolation/interpolation.hpp"
 
 namespace karcher {
@@ -260,6 +262,12 @@ class DensityTerm : public Term {
       for (int a = 0; a < D; ++a)
         for (int i = 0; i < 3; ++i) rates[static_cast<std::size_t>(a)][i] = y[3 * (1 + a) + i];
       return of_body_strains<S, D>(rho, std::get<0>(states).interpolation.jet().d, rotation.jet().value, rates);
+    } else if constexpr (F == 2 && D == 2 && OfDirectorStrains<Density, T>) {
+      const auto& director = std::get<1>(states).interpolation;
+      static_assert(std::is_same_v<typename std::decay_t<decltype(director)>::Chart, ProjectionChart>);
+      const auto y = director.local_coordinates();
+      return of_director_strains<S, T>(rho, std::get<0>(states).interpolation.jet().d, director.jet(), director.frame(),
+                                       {Vec<T, 2>{{y[2], y[3]}}, Vec<T, 2>{{y[4], y[5]}}});
     } else {
       return density_detail::value(rho, reference, jet_of<S, f>(states)...);
     }
@@ -300,7 +308,7 @@ class DensityTerm : public Term {
         energy += weight * density_detail::value(rho, reference, std::get<f>(states).interpolation.jet()...);
         continue;
       }
-      (std::get<f>(states).interpolation.linearize(std::get<f>(states).nodes.data(), std::get<f>(states).maps), ...);
+      (linearize<f>(states), ...);
       Vec<T, L> covector;
       if (want == Want::gradient) {
         const auto w = density_at<Dual<T, L>>(rho, reference, states, all);
@@ -371,13 +379,57 @@ class DensityTerm : public Term {
     return mine;
   }
 
+  // The maps A_i of R^n are multiples of the identity, l_i I and l_{i,a} I one above the other, and not made.
+  template <std::size_t f>
+  static void linearize(States& states) {
+    if constexpr (!is_linear<M<f>>) std::get<f>(states).interpolation.linearize(std::get<f>(states).nodes.data(), std::get<f>(states).maps);
+  }
+  /// c A_i of field f.
+  template <std::size_t f, int R>
+  static Mat<T, R, M<f>::dim> times_map(const Mat<T, R, local[f]>& c, const States& states, std::size_t i) {
+    const auto& state = std::get<f>(states);
+    if constexpr (!is_linear<M<f>>) {
+      return c * state.maps[i];
+    } else {
+      constexpr int k = M<f>::dim;
+      Mat<T, R, k> r;
+      for (int row = 0; row < R; ++row)
+        for (int x = 0; x < k; ++x) {
+          T sum = T(state.weights.l[i]) * c(row, x);
+          for (int a = 0; a < D; ++a) sum += state.weights.dl[i][static_cast<std::size_t>(a)] * c(row, (1 + a) * k + x);
+          r(row, x) = sum;
+        }
+      return r;
+    }
+  }
+  /// A_i^T c of field f.
+  template <std::size_t f, int C>
+  static Mat<T, M<f>::dim, C> transposed_map_times(const States& states, std::size_t i, const Mat<T, local[f], C>& c) {
+    const auto& state = std::get<f>(states);
+    if constexpr (!is_linear<M<f>>) {
+      return transpose_times(state.maps[i], c);
+    } else {
+      constexpr int k = M<f>::dim;
+      Mat<T, k, C> r;
+      for (int x = 0; x < k; ++x)
+        for (int column = 0; column < C; ++column) {
+          T sum = T(state.weights.l[i]) * c(x, column);
+          for (int a = 0; a < D; ++a) sum += state.weights.dl[i][static_cast<std::size_t>(a)] * c((1 + a) * k + x, column);
+          r(x, column) = sum;
+        }
+      return r;
+    }
+  }
+
   template <std::size_t f>
   static void add_gradient(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Vec<T, L>& covector,
                            std::vector<T>& gradient) {
     constexpr auto k = static_cast<std::size_t>(M<f>::dim);
     for (std::size_t i = 0; i < static_cast<std::size_t>(kind.shapes[f].nodes); ++i) {
-      const auto g = transpose_times(std::get<f>(states).maps[i], part<f>(covector));
-      for (std::size_t c = 0; c < k; ++c) gradient[begin[f] + i * k + c] += g[static_cast<int>(c)];
+      Mat<T, local[f], 1> mine;
+      mine.e = part<f>(covector).e;
+      const auto g = transposed_map_times<f>(states, i, mine);
+      for (std::size_t c = 0; c < k; ++c) gradient[begin[f] + i * k + c] += g(static_cast<int>(c), 0);
     }
   }
 
@@ -398,9 +450,9 @@ class DensityTerm : public Term {
       for (int i = 0; i < local[f]; ++i)
         for (int j = 0; j < local[g]; ++j) c(i, j) = w.hessian(offset(f) + i, offset(g) + j);
       for (std::size_t j = 0; j < columns; ++j) {
-        const auto ca = c * std::get<g>(states).maps[j];
+        const auto ca = times_map<g>(c, states, j);
         for (std::size_t i = 0; i < (f == g ? j + 1 : rows); ++i) {
-          const auto block = transpose_times(std::get<f>(states).maps[i], ca);
+          const auto block = transposed_map_times<f>(states, i, ca);
           T* to = hessian.data() + (begin[f] + i * kf) * n + begin[g] + j * kg;
           for (std::size_t r = 0; r < kf; ++r)
             for (std::size_t s = 0; s < kg; ++s) to[r * n + s] += block(static_cast<int>(r), static_cast<int>(s));

@@ -3,8 +3,9 @@
 /// The strains of bodies with rotations as independent field (rods, plates), in the axes of the rotated body: v_a = R^T d_a m and u_a = axl(R^T d_a R) for the
 /// D directions of the reference.
 ///
-/// A density with `template <int D, class S> S energy(const BodyStrains<D, S>&) const` is a density of them: its derivatives come from jets in the 6 D strains
-/// and the closed derivatives of the strains (assembly/body_strain_derivatives.hpp), a fraction of the work of jets in the local coordinates of both fields.
+/// A density with `template <class W, class S> void add_energy(W& w, const BodyStrains<D, S>& e) const` is a density of them: its derivatives come from jets W in the
+/// 6 D strains and the closed derivatives of the strains (assembly/body_strain_derivatives.hpp), a fraction of the work of jets in the local coordinates of both
+/// fields. The strains are then variables, S a Dual<T, 6 D> without second derivatives; so they, their sums and multiples enter W by add_square and add_product only.
 
 #include <array>
 

@@ -44,6 +44,20 @@ struct PowerOfSquares {
   }
 };
 
+/// 1/2 ((x - 1)^2 + (1/x - 1)^2) for x > 0.
+struct ChangeOfArea {
+  template <int Order, class T>
+  std::array<T, static_cast<std::size_t>(Order + 1)> derivatives(const T& x) const {
+    static_assert(Order <= 2);
+    std::array<T, static_cast<std::size_t>(Order + 1)> f;
+    const T r = T(1.0) / x, s = r - T(1.0);
+    f[0] = T(0.5) * ((x - T(1.0)) * (x - T(1.0)) + s * s);
+    if constexpr (Order > 0) f[1] = x - T(1.0) - s * r * r;
+    if constexpr (Order > 1) f[2] = T(1.0) + (T(3.0) * r - T(2.0)) * r * r * r;
+    return f;
+  }
+};
+
 }  // namespace plate_detail
 
 template <class P>
@@ -51,52 +65,55 @@ struct CosseratPlate {
   P thickness, mu, lambda, mu_c, L_c, p;
   static CosseratPlate of(std::span<const P> all) { return {all[0], all[1], all[2], all[3], all[4], all[5]}; }
 
-  /// membrane, bending, curvature
-  template <class S>
-  std::array<S, 3> parts_of(const BodyStrains<2, S>& e) const {
+  template <class W, class S>
+  void add_parts(const BodyStrains<2, S>& e, W& membrane, W& bending, W& curvature) const {
     const Vec3<S>&v1 = e.v[0], &v2 = e.v[1], &u1 = e.u[0], &u2 = e.u[1];
     const P h = thickness, h3 = h * h * h * (1.0 / 12), plane = mu * lambda / (2.0 * mu + lambda);
-    std::array<S, 3> w{S(0.0), S(0.0), S(0.0)};
 
-    S& membrane = w[0];
     add_square(membrane, v1[0] - 1.0, h * mu);
     add_square(membrane, v2[1] - 1.0, h * mu);
     add_square(membrane, v2[0] + v1[1], 0.5 * h * mu);
     add_square(membrane, v2[0] - v1[1], 0.5 * h * mu_c);
-    for (const S& shear : {v1[2], v2[2]}) add_square(membrane, shear, 0.5 * h * (mu + mu_c));
-    const S area = v1[0] * v2[1] - v1[1] * v2[0];  // det U
-    const auto possible = base(area) > Base<S>(0.0);
-    const S safe = select(possible, area, S(1.0));
-    add_square(membrane, safe - 1.0, 0.5 * h * plane);
-    add_square(membrane, 1.0 / safe - 1.0, 0.5 * h * plane);
-    membrane = select(possible, membrane, S(std::numeric_limits<double>::infinity()));
+    add_square(membrane, v1[2], 0.5 * h * (mu + mu_c));
+    add_square(membrane, v2[2], 0.5 * h * (mu + mu_c));
+    W area(0.0);  // det U
+    add_product(area, v1[0], v2[1]);
+    add_product(area, -v1[1], v2[0]);
+    const auto possible = base(area) > P(0.0);
+    membrane += scaled(evaluate(plate_detail::ChangeOfArea{}, select(possible, area, W(1.0))), P(h * plane));
+    membrane += constant<W>(select(possible, P(0.0), P(std::numeric_limits<double>::infinity())));
 
     // K_b has the rows (u1_2, u2_2), (-u1_1, -u2_1).
-    S& bending = w[1];
     add_square(bending, u1[1], h3 * mu);
     add_square(bending, u2[0], h3 * mu);
     add_square(bending, u2[1] - u1[0], 0.5 * h3 * mu);
     add_square(bending, u2[1] + u1[0], 0.5 * h3 * mu_c);
     add_square(bending, u1[1] - u2[0], h3 * plane);
 
-    S square(0.0);  // L_c^2 |K|^2
+    W square(0.0);  // L_c^2 |K|^2
     for (const Vec3<S>& u : e.u)
       for (int i = 0; i < 3; ++i) add_square(square, u[i], 2.0 * L_c * L_c);
-    w[2] = scaled(evaluate(plate_detail::PowerOfSquares<P>{0.5 * (1.0 + p)}, square), P(h * mu));
-    return w;
+    curvature += scaled(evaluate(plate_detail::PowerOfSquares<P>{0.5 * (1.0 + p)}, square), P(h * mu));
   }
-  template <class S>
-  S energy(const BodyStrains<2, S>& e) const {
-    const std::array<S, 3> w = parts_of(e);
-    return w[0] + w[1] + w[2];
+  template <class W, class S>
+  void add_energy(W& w, const BodyStrains<2, S>& e) const {
+    add_parts(e, w, w, w);
   }
   template <class M, class Q>
   auto operator()(const M& m, const Q& q) const {
-    return energy(body_strains(m, q));
+    const auto e = body_strains(m, q);
+    std::decay_t<decltype(e.v[0][0])> w(0.0);
+    add_energy(w, e);
+    return w;
   }
+  /// membrane, bending, curvature
   template <class M, class Q>
   auto parts(const M& m, const Q& q) const {
-    return parts_of(body_strains(m, q));
+    const auto e = body_strains(m, q);
+    using S = std::decay_t<decltype(e.v[0][0])>;
+    std::array<S, 3> w{S(0.0), S(0.0), S(0.0)};
+    add_parts(e, w[0], w[1], w[2]);
+    return w;
   }
 
   static std::vector<QuantityInfo> quantity_infos() { return {{"strain", "1", 1, "size of the strains, |U - I| + h/2 |K_b|", 0.2}}; }

@@ -11,6 +11,7 @@
 
 #include "karcher/energy/body_strains.hpp"
 #include "karcher/energy/energy_info.hpp"
+#include "karcher/math/scalar.hpp"
 
 namespace karcher {
 
@@ -21,18 +22,19 @@ struct CosseratRod {
   std::array<P, 3> v0, u0;
   static CosseratRod of(std::span<const P> p) { return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}, {p[9], p[10], p[11]}}; }
 
-  template <class S>
-  S energy(const BodyStrains<1, S>& e) const {
-    S w(0.0);
+  template <class W, class S>
+  void add_energy(W& w, const BodyStrains<1, S>& e) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      add_square(w, e.v[0].e[i] - S(v0[i]), 0.5 * A[i]);
-      add_square(w, e.u[0].e[i] - S(u0[i]), 0.5 * K[i]);
+      add_square(w, e.v[0].e[i] - constant<S>(v0[i]), 0.5 * A[i]);
+      add_square(w, e.u[0].e[i] - constant<S>(u0[i]), 0.5 * K[i]);
     }
-    return w;
   }
   template <class M, class Q>
   auto operator()(const M& m, const Q& q) const {
-    return energy(body_strains(m, q));
+    const auto e = body_strains(m, q);
+    std::decay_t<decltype(e.v[0][0])> w(0.0);
+    add_energy(w, e);
+    return w;
   }
 
   /// shear, stretch, bending, twist
@@ -42,8 +44,8 @@ struct CosseratRod {
     using S = std::decay_t<decltype(e.v[0][0])>;
     std::array<S, 4> w{S(0.0), S(0.0), S(0.0), S(0.0)};
     for (std::size_t i = 0; i < 3; ++i) {
-      add_square(w[i / 2], e.v[0].e[i] - S(v0[i]), 0.5 * A[i]);
-      add_square(w[2 + i / 2], e.u[0].e[i] - S(u0[i]), 0.5 * K[i]);
+      add_square(w[i / 2], e.v[0].e[i] - constant<S>(v0[i]), 0.5 * A[i]);
+      add_square(w[2 + i / 2], e.u[0].e[i] - constant<S>(u0[i]), 0.5 * K[i]);
     }
     return w;
   }

@@ -23,6 +23,7 @@ struct FieldSlot {
   bool moves =
       false;  ///< its values are places of the points: without initial values they are the reference positions, and pictures show the points there
   bool headless = false;  ///< u and -u mean the same, so pictures show rods, not arrows
+  bool normal = false;    ///< without initial values it is the unit normal of the stress-free surface
 
   bool accepts(const ManifoldOps& m) const { return std::find(manifolds.begin(), manifolds.end(), &m) != manifolds.end(); }
   std::vector<std::string> manifold_names() const {

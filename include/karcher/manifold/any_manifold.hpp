@@ -45,6 +45,7 @@ struct ManifoldOps {
   // Tangent coordinates.
   std::vector<bool> lengths;  ///< of each, whether it is a length; else it is free of units
   bool body_axes = false;     ///< they are the rotation vector of a body, about its three axes
+  bool directions = false;    ///< points are directions of space
 
   // Points.
   /// Closest point for manifolds that have one; else a check-and-clean (symmetrise, normalise) of data that is a point up to rounding.
@@ -132,6 +133,7 @@ const ManifoldOps& manifold_ops() {
       .inner = [](const double* p, const double* a, const double* b) -> double { return M::inner(d::read<n>(p), d::read<n>(a), d::read<n>(b)); },
       .lengths = std::vector<bool>(lengths.begin(), lengths.end()),
       .body_axes = has_body_axes<M>(),
+      .directions = has_directions<M>(),
       .make_point =
           [](const double* x, double* p) {
             Point<M> y{};

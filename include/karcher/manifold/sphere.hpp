@@ -88,6 +88,7 @@ struct Sphere {
   static constexpr int dim = N;
   static constexpr double injectivity_radius = std::numbers::pi;
   static constexpr int unit_scale = 1;
+  static constexpr bool directions = N == 2;
 
   /// The first unit vector.
   static Vec<double, N + 1> origin() { return {{1.0}}; }

@@ -9,6 +9,7 @@
 /// M::lengths              std::array<bool, dim>: whether a tangent coordinate is a length, as coordinates of R^n are (and all of a linear type), or free of units,
 ///                         as angles are. Steps in lengths are measured by the size of the mesh
 /// M::body_axes            true: the tangent coordinates are the rotation vector of a body, about its three axes, and one axis may be left free
+/// M::directions           true: points are directions of space, unit vectors of R^3 that turn with a body and may be normals of surfaces
 /// M::cut_ratio(p, q)      at double: how near q is to where no shortest geodesic from p is the only one, 1 there; else dist(p, q) / injectivity_radius
 /// M::make_point(x, p)     at double: p from ambient data x that are a point up to rounding; false where they are not. Else project(x), else exp_x(0)
 /// M::standard_point()     at double: the value of a field that is given none; else M::origin(), else 0 for linear types
@@ -72,6 +73,14 @@ constexpr bool has_body_axes() {
   } else {
     return false;
   }
+}
+
+template <class M>
+constexpr bool has_directions() {
+  if constexpr (requires { M::directions; })
+    return M::directions;
+  else
+    return false;
 }
 
 template <class M>

@@ -69,7 +69,8 @@ struct FieldSpec {
   int order = 0;  ///< 0: the mesh's
   Rule rule = Rule::projection;
   std::string on = "all";
-  PointFunction initial;  ///< empty: the reference position (R^n)
+  PointFunction initial;  ///< empty: the reference position (R^n), or
+  bool normal = false;    ///< the unit normal of the stress-free surface (nodal_normals.hpp)
 };
 
 /// An energy or a load.

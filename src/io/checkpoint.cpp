@@ -16,7 +16,7 @@ namespace {
 // identity (u64), load step (i64), t, increment, largest gradient (f64), summary (string), number of fields (u64), for each field: name, manifold (strings), ambient (u64),
 // number of values (u64), values (f64). A string is its length (u64) and its bytes.
 constexpr std::string_view magic = "KARCHER\x1a";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 constexpr std::size_t head_size = 24;
 
 /// A length (u64) and as many bytes or numbers.

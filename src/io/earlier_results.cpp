@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "karcher/error.hpp"
-#include "karcher/io/summary.hpp"
+#include "karcher/io/load_steps_file.hpp"
 #include "karcher/io/vtu.hpp"
 
 namespace karcher {
@@ -26,7 +26,7 @@ std::string sentence(const std::filesystem::path& directory) {
   if (!std::filesystem::exists(directory / "summary.json"))
     return std::filesystem::exists(directory / "checkpoint.bin") ? "replaces the results of a run that made no load step" : "";
   try {
-    const Summary s = read_summary(directory / "summary.json");
+    const Summary s = read_results(directory);
     return fmt::format("replaces the results of an earlier run (\"{}\": {}, {} load step{})", s.title, name(s.status), s.load_steps.size(),
                        s.load_steps.size() == 1 ? "" : "s");
   } catch (const InputError&) {
@@ -56,7 +56,8 @@ std::string remove_earlier_results(const std::filesystem::path& directory) {
       // Another program's collection names files that are not ours.
     }
   }
-  for (const char* file : {"summary.json", "probes.csv", "report.html", "report.data"}) std::filesystem::remove(directory / file, ignored);
+  for (const char* file : {"summary.json", "load_steps.jsonl", "probes.csv", "report.html", "report.data"})
+    std::filesystem::remove(directory / file, ignored);
   remove_unfinished_files(directory);
   return what;
 }

@@ -1,16 +1,11 @@
 #include "karcher/io/iterations.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <string_view>
 
 #include "karcher/error.hpp"
-#include "karcher/io/atomic_file.hpp"
 
 namespace karcher {
 namespace {
@@ -42,38 +37,27 @@ bool parse(std::string_view text, IterationRecord& r) {
   return whole;
 }
 
+std::string rows(const std::filesystem::path& file, int first_load_step) {
+  std::string content = fmt::format("{}\n", header);
+  if (first_load_step > 0 && std::filesystem::exists(file))
+    for (const IterationRecord& r : read_iterations(file))
+      if (r.load_step < first_load_step) content += row(r);
+  return content;
+}
+
 }  // namespace
 
-IterationsCsv::IterationsCsv(std::filesystem::path file, int first_load_step) : file_(std::move(file)) {
-  std::string content = fmt::format("{}\n", header);
-  if (first_load_step > 0 && std::filesystem::exists(file_))
-    for (const IterationRecord& r : read_iterations(file_))
-      if (r.load_step < first_load_step) content += row(r);
-  write_atomically(file_, content);
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) throw Error(fmt::format("The file {} cannot be written: {}.", file_.string(), std::strerror(errno)));
-}
+IterationsCsv::IterationsCsv(const std::filesystem::path& file, int first_load_step) : file_(file, rows(file, first_load_step)) {}
 
-IterationsCsv::~IterationsCsv() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-void IterationsCsv::iteration(const IterationRecord& record) {
-  const std::string text = row(record);
-  ssize_t written = -1;
-  do written = ::write(descriptor_, text.data(), text.size());
-  while (written < 0 && errno == EINTR);
-  if (written != static_cast<ssize_t>(text.size()))
-    throw Error(fmt::format("The file {} cannot be written: {}.", file_.string(), written < 0 ? std::strerror(errno) : "the disk is full"));
-}
+void IterationsCsv::iteration(const IterationRecord& record) { file_.append(row(record)); }
 
 std::vector<IterationRecord> read_iterations(const std::filesystem::path& file) {
-  const std::string content = read_whole(file);
+  const std::string content = whole_rows(file);
   std::string_view rest = content;
   std::vector<IterationRecord> records;
   for (int line = 1; !rest.empty(); ++line) {
     const std::string_view text = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(rest.size(), text.size() + 1));
+    rest.remove_prefix(text.size() + 1);
     IterationRecord r;
     if (line == 1 ? text != header : !parse(text, r))
       throw InputError(fmt::format("{}, line {}: not a row of a table of iterations.", file.string(), line));

@@ -13,6 +13,7 @@
 #include "karcher/error.hpp"
 #include "karcher/io/atomic_file.hpp"
 #include "karcher/io/iterations.hpp"
+#include "karcher/io/load_steps_file.hpp"
 
 namespace karcher {
 namespace {
@@ -24,13 +25,14 @@ json number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
 json load_steps(const Summary& summary, const Store& store) {
   json out = json::array();
+  std::map<int, const StoredState*> stored;
+  for (const StoredState& state : store.states) stored[state.state] = &state;
   int k = 0;
   for (const LoadStepSummary& s : summary.load_steps) {
     ++k;
     json energies = json::object(), probes = json::object();
-    for (const StoredState& state : store.states)
-      if (state.state == k)
-        for (const auto& [name, value] : state.energies) energies[name] = number(value);
+    if (const auto state = stored.find(k); state != stored.end())
+      for (const auto& [name, value] : state->second->energies) energies[name] = number(value);
     if (energies.empty() && k == static_cast<int>(summary.load_steps.size()))
       for (const auto& [name, value] : summary.energies) energies[name] = number(value);
     for (const auto& [name, values] : s.probes) {
@@ -130,7 +132,7 @@ void write_page(const std::filesystem::path& directory, const PageLimits& limits
   const std::filesystem::path summary_file = directory / "summary.json";
   if (!std::filesystem::exists(summary_file))
     throw InputError(fmt::format("The directory {} holds no results: {} is missing.", directory.string(), summary_file.string()));
-  const Summary summary = read_summary(summary_file);
+  const Summary summary = read_results(directory);
   Store store = read_store(directory / "report.data");
 
   json notes = json::array();

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
-#include "karcher/error.hpp"
-#include "karcher/io/atomic_file.hpp"
-
 namespace karcher {
 namespace {
 
@@ -37,15 +32,15 @@ ProbesCsv::ProbesCsv(std::filesystem::path file, const std::vector<LoadStepSumma
   if (finished.empty() || finished.front().probes.empty()) return;
   std::string content = header(finished.front());
   for (std::size_t k = 0; k < finished.size(); ++k) content += row(static_cast<int>(k) + 1, finished[k]);
-  write_atomically(file_, content);
+  rows_.emplace(file_, content);
 }
 
 void ProbesCsv::add(int load_step, const LoadStepSummary& step) {
   if (step.probes.empty()) return;
-  const std::string text = (std::filesystem::exists(file_) ? "" : header(step)) + row(load_step, step);
-  std::ofstream out(file_, std::ios::binary | std::ios::app);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!out.flush()) throw Error(fmt::format("The file {} cannot be written.", file_.string()));
+  if (rows_)
+    rows_->append(row(load_step, step));
+  else
+    rows_.emplace(file_, header(step) + row(load_step, step));
 }
 
 }  // namespace karcher

@@ -104,6 +104,18 @@ LoadStepSummary load_step(const Json& j) {
   return s;
 }
 
+/// What read() makes of a text. \throws InputError with the trouble where the text is something else
+template <class Read>
+auto read_as(const std::string& trouble, const Read& read) {
+  try {
+    return read();
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(fmt::format("{}: {}.", trouble, e.what()));
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}.", trouble, e.what()));
+  }
+}
+
 }  // namespace
 
 LoadStepSummary summarize(const StepReport& report) {
@@ -165,8 +177,14 @@ std::string to_json(const Summary& s) {
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string to_json_line(const LoadStepSummary& step) { return load_step(step).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+LoadStepSummary load_step_from_json(std::string_view text, const std::string& source) {
+  return read_as(fmt::format("{} is not a load step of a run", source), [&] { return load_step(Json::parse(text)); });
+}
+
 Summary summary_from_json(const std::string& text, const std::string& source) {
-  try {
+  return read_as(fmt::format("{} is not a summary of a run", source), [&] {
     const Json j = Json::parse(text);
     Summary s;
     s.title = j.at("title");
@@ -192,11 +210,7 @@ Summary summary_from_json(const std::string& text, const std::string& source) {
                  number(seconds.at("solve")), number(seconds.at("output")),   number(seconds.at("setup"))};
     s.peak_memory_mb = number(j.at("peak_memory_mb"));
     return s;
-  } catch (const nlohmann::json::exception& e) {
-    throw InputError(fmt::format("{} is not a summary of a run: {}.", source, e.what()));
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("{} is not a summary of a run: {}.", source, e.what()));
-  }
+  });
 }
 
 void write_summary(const std::filesystem::path& file, const Summary& summary) { write_atomically(file, to_json(summary)); }

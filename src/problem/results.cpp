@@ -57,13 +57,13 @@ void Results::begin(const Configuration& initial) {
     lock_.emplace(directory());
     replaced_ = remove_earlier_results(directory());
     if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
-    probes_.emplace(directory() / "probes.csv", summary_.load_steps);
+    open_tables();
     if (problem_.output.vtu) vtu_.emplace(directory());
     if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_));
   });
   write_state(0, initial, true);
   together([&] {
-    if (writer_) write_checkpoint(checkpoint_file(), {.configuration = initial, .summary = to_json(summary_)}, model_.fields(), identity_);
+    if (writer_) write_checkpoint(checkpoint_file(), {.configuration = initial, .summary = history()}, model_.fields(), identity_);
   });
   summary_.seconds.output += seconds_now() - begin;
 }
@@ -71,7 +71,11 @@ void Results::begin(const Configuration& initial) {
 void Results::resume(const Checkpoint& checkpoint) {
   together([&] {
     const Summary earlier = summary_from_json(checkpoint.summary, checkpoint_file().string());
-    summary_.load_steps = earlier.load_steps;
+    summary_.load_steps = read_load_steps(directory());
+    if (summary_.load_steps.size() < static_cast<std::size_t>(checkpoint.load_step))
+      throw InputError(fmt::format("{} holds {} load steps, but the checkpoint was written after {}.", (directory() / "load_steps.jsonl").string(),
+                                   summary_.load_steps.size(), checkpoint.load_step));
+    summary_.load_steps.resize(static_cast<std::size_t>(checkpoint.load_step));
     summary_.work = earlier.work;
     summary_.energy = earlier.energy;
     summary_.energies = earlier.energies;
@@ -85,13 +89,26 @@ void Results::resume(const Checkpoint& checkpoint) {
     lock_.emplace(directory());
     remove_unfinished_files(directory());
     if (!problem_.resolved.empty()) write_atomically(directory() / "problem.resolved.toml", problem_.resolved);
-    probes_.emplace(directory() / "probes.csv", summary_.load_steps);
+    open_tables();
     if (problem_.output.vtu) {
       vtu_.emplace(directory());
       vtu_->resume(checkpoint.load_step + 1);
     }
     if (problem_.output.report) page_.emplace(directory(), output_model(problem_, model_), checkpoint.load_step + 1);
   });
+}
+
+void Results::open_tables() {
+  load_steps_.emplace(directory(), summary_.load_steps);
+  probes_.emplace(directory() / "probes.csv", summary_.load_steps);
+}
+
+std::string Results::history() {
+  std::vector<LoadStepSummary> steps;
+  std::swap(steps, summary_.load_steps);
+  std::string text = to_json(summary_);
+  std::swap(steps, summary_.load_steps);
+  return text;
 }
 
 void Results::measure(const Configuration& u) {
@@ -168,14 +185,21 @@ void Results::load_step_finished(const StepReport& report, const Configuration& 
   summary_.reason = fmt::format("Load step {} (t = {:.6g}) ended: {}", report.load_step, report.t, report.reason);
   summary_.peak_memory_mb = sum_over_ranks(peak_memory_mb());
   together([&] {
-    if (!writer_) return;
-    write_summary(directory() / "summary.json", summary_);
-    probes_->add(report.load_step, step);
-    if (report.status == Status::converged) {
-      const Checkpoint checkpoint{report.load_step, report.next_increment, report.largest_gradient, u, to_json(summary_)};
-      write_checkpoint(checkpoint_file(), checkpoint, model_.fields(), identity_);
-    }
+    if (writer_) write_load_step(report, u, step);
   });
+}
+
+void Results::write_load_step(const StepReport& report, const Configuration& u, const LoadStepSummary& step) {
+  load_steps_->add(step);
+  probes_->add(report.load_step, step);
+  // The summary holds all load steps, so writing it after each of ten thousand would cost as the square of their number: it takes a twentieth of the time at most.
+  if (const double now = seconds_now(); now >= summary_due_) {
+    write_summary(directory() / "summary.json", summary_);
+    summary_due_ = now + 20 * (seconds_now() - now);
+  }
+  if (report.status != Status::converged) return;
+  const Checkpoint checkpoint{report.load_step, report.next_increment, report.largest_gradient, u, history()};
+  write_checkpoint(checkpoint_file(), checkpoint, model_.fields(), identity_);
 }
 
 void Results::finish(Status status, const std::string& reason) {

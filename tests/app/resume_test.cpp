@@ -107,6 +107,31 @@ TEST(Resume, TakesAnotherLoadScheduleThatGoesOnFromThere) {
   EXPECT_NE(before.err.find("stands at t = 1, before the first load step of this problem (continuation.from = 2)"), std::string::npos) << before.err;
 }
 
+TEST(Resume, NeedsTheLoadStepsThatTheCheckpointCounts) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  ASSERT_EQ(shop.karcher("run strip.toml -q -o results --set continuation.to=0.5").code, 0);
+  // A summary that was not written any more is no matter.
+  std::filesystem::remove(shop.directory() / "results/summary.json");
+  ASSERT_EQ(shop.karcher("run strip.toml -q --resume -o results --set continuation.to=0.75 --set continuation.steps=3").code, 0);
+  EXPECT_EQ(summary(shop, "results")["load_steps"].size(), 3u);
+  std::filesystem::remove(shop.directory() / "results/load_steps.jsonl");
+  const Outcome o = shop.karcher("run strip.toml --resume -o results");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("load_steps.jsonl holds 0 load steps, but the checkpoint was written after 3."), std::string::npos) << o.err;
+}
+
+TEST(Resume, ACheckpointDoesNotGrowWithTheLoadSteps) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const auto size_after = [&](int steps) {
+    EXPECT_EQ(shop.karcher(fmt::format("run strip.toml -q -o results --set continuation.steps={} --set output.report=false", steps)).code, 0);
+    return std::filesystem::file_size(shop.directory() / "results/checkpoint.bin");
+  };
+  const auto few = static_cast<double>(size_after(2));
+  EXPECT_NEAR(static_cast<double>(size_after(20)), few, 100) << "digits of the numbers in the summary";
+}
+
 TEST(Resume, GivesAdaptiveLoadStepsTheLengthThatTheyHad) {
   const Workshop shop;
   // Beyond t = 0.6 every load step fails.

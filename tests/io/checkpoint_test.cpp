@@ -117,7 +117,7 @@ TEST(Checkpoint, OtherVersionsAndOtherFilesAreRefusedByName) {
   std::string content = read_whole(directory / "whole");
   content[8] = 9;
   std::ofstream(directory / "version", std::ios::binary) << content;
-  EXPECT_TRUE(contains(refusal(directory / "version", fields, 5), "has version 9; this program reads version 2"));
+  EXPECT_TRUE(contains(refusal(directory / "version", fields, 5), "has version 9; this program reads version 3"));
   std::ofstream(directory / "text") << "This is a letter, long enough to be a checkpoint.";
   EXPECT_TRUE(contains(refusal(directory / "text", fields, 5), "not a checkpoint of Karcher"));
   EXPECT_TRUE(contains(refusal(directory / "missing", fields, 5), "No such file"));

@@ -20,7 +20,7 @@ struct Checkpoint {
   double increment = 0;         ///< StepReport::next_increment of the last of them
   double largest_gradient = 0;  ///< its StepReport::largest_gradient
   Configuration configuration;
-  std::string summary;  ///< JSON of the run so far (to_json), so that history and state agree
+  std::string summary;  ///< JSON of the run so far (to_json), without its load steps: they are in load_steps.jsonl
 };
 
 /// Hash (64-bit FNV-1a) of what makes two problems the same for a checkpoint.

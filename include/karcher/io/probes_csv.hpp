@@ -3,7 +3,9 @@
 /// probes.csv: the probes after every load step, a row each.
 
 #include <filesystem>
+#include <optional>
 
+#include "karcher/io/row_file.hpp"
 #include "karcher/io/summary.hpp"
 
 namespace karcher {
@@ -19,6 +21,7 @@ class ProbesCsv {
 
  private:
   std::filesystem::path file_;
+  std::optional<RowFile> rows_;
 };
 
 }  // namespace karcher

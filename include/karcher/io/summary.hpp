@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,10 @@ LoadStepSummary summarize(const StepReport& report);
 std::vector<std::string> distinct_names(std::vector<std::string> names);
 
 std::string to_json(const Summary& summary);
+/// A load step in one line, with the keys that it has in the summary.
+std::string to_json_line(const LoadStepSummary& step);
+/// \throws InputError naming `source`
+LoadStepSummary load_step_from_json(std::string_view text, const std::string& source);
 /// \throws InputError naming `source` where the text is not a summary (syntax, missing key, wrong type).
 Summary summary_from_json(const std::string& text, const std::string& source);
 

@@ -11,6 +11,7 @@
 #include "karcher/io/console_table.hpp"
 #include "karcher/io/directory_lock.hpp"
 #include "karcher/io/iterations.hpp"
+#include "karcher/io/load_steps_file.hpp"
 #include "karcher/io/page.hpp"
 #include "karcher/io/probes_csv.hpp"
 #include "karcher/io/summary.hpp"
@@ -51,6 +52,11 @@ class Results : public Observer {
   void measure(const Configuration& u);
   void doubt(LoadStepSummary& step, const Configuration& u, bool last);
   void update_times();
+  /// The tables that grow with the load steps, with those that are finished.
+  void open_tables();
+  /// The summary so far without its load steps, for the checkpoint.
+  std::string history();
+  void write_load_step(const StepReport& report, const Configuration& u, const LoadStepSummary& step);
 
   const Problem& problem_;
   const DiscreteProblem& model_;
@@ -61,11 +67,13 @@ class Results : public Observer {
   std::string replaced_, page_trouble_;
   std::function<void(const std::string&)> warn_;
   bool warned_ = false;  ///< of strains
+  std::optional<LoadStepsFile> load_steps_;
   std::optional<ProbesCsv> probes_;
   std::optional<VtuSeries> vtu_;
   std::optional<PageStates> page_;
   Summary summary_;
   double start_ = 0, earlier_seconds_ = 0;
+  double summary_due_ = 0;  ///< seconds_now() from which summary.json is written again
 };
 
 /// What must agree between a run and the run that continues it.

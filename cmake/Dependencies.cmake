@@ -5,6 +5,7 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(pugixml REQUIRED)
 # None has a file for pkg-config or CMake everywhere. MUMPS comes with PETSc and is the same library that PETSc uses.
 foreach(foreign metis dmumps lapack blas)
   if(NOT TARGET karcher_foreign::${foreign})

@@ -9,7 +9,7 @@ set -euo pipefail
 
 # libopenblas-dev is named although nothing here includes it: PETSc alone brings the reference BLAS, which factorises about ten times slower.
 build=(g++ cmake make ninja-build pkg-config libpetsc-real-dev libmetis-dev libopenmpi-dev openmpi-bin libopenblas-dev libfmt-dev zlib1g-dev nlohmann-json3-dev
-       libtomlplusplus-dev libcli11-dev)
+       libtomlplusplus-dev libcli11-dev libpugixml-dev)
 test=(libgtest-dev libadolc-dev libmuparser-dev python3 python3-meshio python3-numpy python3-vtk9)
 fuzz=(libclang-rt-14-dev)
 bench=(libbenchmark-dev libadolc-dev)

@@ -61,8 +61,8 @@ bool derivatives(DiscreteProblem& model) {
   std::mt19937 random(20240611);
   const Layout& layout = *model.layout;
   const Functional& functional = *model.functional;
-  Configuration u = model.discretisation.initial, trial = u;
-  layout.retract(model.discretisation.initial, random_step(model, 0.02, random), u);
+  Configuration u = model.discretisation.start, trial = u;
+  layout.retract(model.discretisation.start, random_step(model, 0.02, random), u);
   const std::vector<double> direction = random_step(model, 0.05, random);
   std::vector<double> g(direction.size());
   BlockMatrix h = functional.make_matrix();

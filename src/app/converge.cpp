@@ -249,7 +249,7 @@ int converge(const ConvergeOptions& options) {
     level.cells = static_cast<long>(mesh->cells.size());
     for (const Field& f : level.fields) level.unknowns += static_cast<long>(f.space->node_count()) * f.manifold->dim;
     if (talks && isatty(STDERR_FILENO)) fmt::print(stderr, "level {}: {} unknowns\n", k, level.unknowns);
-    level.u = model.discretisation.initial;
+    level.u = model.discretisation.start;
     // Where supports change, the solution depends on the way there.
     const bool same_supports = model.discretisation.constraints.phases().size() == 1;
     const bool prolonged = solves && k > 0 && options.start == "prolonged" && same_supports;

@@ -38,7 +38,7 @@ int evaluate(const EvaluateOptions& options) {
     mesh = build_mesh(problem);
   });
   DiscreteProblem model = build(problem, mesh);
-  const Configuration& u = model.discretisation.initial;
+  const Configuration& u = model.discretisation.start;
   std::vector<double> gradient(static_cast<std::size_t>(model.layout->local_dofs()));
   require_energy(problem, model);
   const Evaluation evaluation = model.functional->gradient(u, gradient);

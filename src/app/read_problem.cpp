@@ -281,6 +281,11 @@ class Reader {
       FieldSpec& spec = problem_.fields[i];
       Section& s = field_sections_[i];
       const Value* v = s.raw("initial");
+      std::optional<Section> earlier;
+      if (v && v->is(Value::Kind::table)) {
+        earlier = start_from_results(spec, s.path("initial"), *v);
+        v = earlier->raw("values");
+      }
       const bool linear = spec.manifold->linear;
       const bool deforms = linear && is_deformation(static_cast<int>(i));
       if (v && v->is(Value::Kind::text) && v->text == "reference") {
@@ -304,9 +309,26 @@ class Reader {
         for (const double x : spec.manifold->standard_point) items.push_back(Value::of(x));
         s.note("initial", Value::of(items));
       }
+      if (earlier) {
+        earlier->note("values", v ? *v : s.resolved().find("initial")->value);
+        s.note("initial", earlier->resolved());
+      }
       all.append(spec.name, {}, s.resolved());
     }
     note_before_terms("fields", all);
+  }
+
+  Section start_from_results(FieldSpec& spec, const std::string& path, const Value& table) const {
+    Section s(&table, path, table.place, section_info("fields.initial").keys);
+    StartSpec start;
+    start.place = s.place("results");
+    start.field = s.text("field", spec.name);
+    const Path given = s.text("results");
+    start.results = (given.is_absolute() ? given : problem_.file.parent_path() / given).lexically_normal();
+    s.note("results", Value::of(start.results.string()));
+    if (s.has("step")) start.step = s.integer("step");
+    spec.start = start;
+    return s;
   }
 
   void dirichlet() {

@@ -51,7 +51,7 @@ int run(const RunOptions& options) {
     mesh = build_mesh(problem);
   });
   DiscreteProblem model = build(problem, mesh);
-  Configuration u = model.discretisation.initial;
+  Configuration u = model.discretisation.start;
   rehearse(problem, model);
   const std::uint64_t id = identity(problem, model);
 

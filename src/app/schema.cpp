@@ -153,8 +153,18 @@ std::vector<SectionInfo> make_schema() {
                         "last axis for spheres and hyperbolic spaces"),
               "initial values: numbers or expressions, \"identity\" (SO3, SU2, SPD), \"reference\" (R^n: the reference position), \"normal\" (S2, on "
               "surfaces: the unit normal of the reference), \"exact\" (that of "
-              "[exact]). SO3: a rotation vector (3 entries), a matrix by rows (9, projected) or a quaternion (4, w first); S^n: n+1 entries, "
+              "[exact]), {results = \"DIR\"}: below. SO3: a rotation vector (3 entries), a matrix by rows (9, projected) or a quaternion (4, w "
+              "first); S^n: n+1 entries, "
               "normalised; SPD(n): n*n entries")}},
+      {"fields.initial",
+       "[fields.NAME.initial]",
+       "Starts from a load step of earlier results, interpolated to this mesh by the place in the stress-free configuration: initial = {results = "
+       "\"DIR\", step = 3}. What is "
+       "measured from the initial values, such as supports that keep them and the stress-free frames of rods, has `values`.",
+       {text("results", "path", required, "a directory of results with solution.pvd, relative to the problem file"),
+        integer("step", described("the last one"), 0, 1000000000, "load step; 0: the start of that run"),
+        text("field", "name", described("the field's own name"), "the field there"),
+        point("values", "point", described("as without results"), "what `initial` is without results")}},
       {"energies", "[[energies]]", "An integral over a region of a density of some fields; further keys by type. Types: karcher list energies",
        term_keys},
       {"loads", "[[loads]]", "A potential that counts in the energy with a minus sign; further keys by type. Types: karcher list energies",

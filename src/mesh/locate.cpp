@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -174,28 +175,99 @@ double diameter(const Mesh& mesh, const Cell& cell) {
 
 }  // namespace
 
-Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& point) {
-  std::vector<double> bound;  // no point of the cell is nearer
-  bound.reserve(region.cells.size());
+Locator::Locator(const Mesh& mesh, const Region& region) : mesh_(mesh), region_(region), order_(region.cells.size()) {
   for (const Cell& c : region.cells) {
     const Ball b = ball(mesh, c);
-    bound.push_back(length(b.centre - point) - b.radius);
+    centres_.push_back(b.centre);
+    radii_.push_back(b.radius);
   }
-  std::vector<int> order(region.cells.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return std::pair(bound[at(a)], a) < std::pair(bound[at(b)], b); });
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!order_.empty()) split(0, static_cast<int>(order_.size()));
+}
+
+int Locator::split(int begin, int end) {
+  constexpr int leaf = 8;
+  Box box;
+  box.begin = begin, box.end = end;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  box.low = {{inf, inf, inf}}, box.high = {{-inf, -inf, -inf}};
+  for (int k = begin; k < end; ++k)
+    for (int i = 0; i < 3; ++i) {
+      const double x = centres_[at(order_[at(k)])][i], r = radii_[at(order_[at(k)])];
+      box.low[i] = std::min(box.low[i], x - r);
+      box.high[i] = std::max(box.high[i], x + r);
+    }
+  const int number = static_cast<int>(boxes_.size());
+  boxes_.push_back(box);
+  if (end - begin <= leaf) return number;
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+  const int middle = (begin + end) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                   [&](int a, int b) { return std::pair(centres_[at(a)][axis], a) < std::pair(centres_[at(b)][axis], b); });
+  const int first = split(begin, middle), second = split(middle, end);
+  boxes_[at(number)].first = first, boxes_[at(number)].second = second;
+  return number;
+}
+
+Location Locator::in_cell(int cell, const Vec3<double>& point) const {
+  const Cell& c = region_.cells[at(cell)];
+  const NearestInCell found(mesh_, c, point);
+  return {cell, found.xi(), length(geometry(mesh_, c, found.xi()).x - point), diameter(mesh_, c)};
+}
+
+template <class Reach, class Visit>
+void Locator::search(int box, const Vec3<double>& point, const Reach& reach, const Visit& visit) const {
+  const auto distance = [&](int b) {
+    Vec3<double> gap;
+    for (int i = 0; i < 3; ++i) gap[i] = std::max({boxes_[at(b)].low[i] - point[i], point[i] - boxes_[at(b)].high[i], 0.0});
+    return length(gap);
+  };
+  const Box& b = boxes_[at(box)];
+  if (b.first < 0) {
+    for (int k = b.begin; k < b.end; ++k) {
+      const int cell = order_[at(k)];
+      if (length(centres_[at(cell)] - point) - radii_[at(cell)] <= reach()) visit(cell);
+    }
+    return;
+  }
+  std::array<std::pair<double, int>, 2> halves{std::pair(distance(b.first), b.first), {distance(b.second), b.second}};
+  if (halves[1] < halves[0]) std::swap(halves[0], halves[1]);
+  for (const auto& [gap, half] : halves)
+    if (gap <= reach()) search(half, point, reach, visit);
+}
+
+Location Locator::nearest(const Vec3<double>& point) const {
   Location best;
   best.distance = std::numeric_limits<double>::infinity();
-  for (int c : order) {
-    if (bound[at(c)] > best.distance + 1e-12 * best.cell_diameter) break;
-    const Cell& cell = region.cells[at(c)];
-    const NearestInCell found(mesh, cell, point);
-    const double distance = length(geometry(mesh, cell, found.xi()).x - point), tie = 1e-12 * diameter(mesh, cell);
-    if (best.cell < 0 || distance < best.distance - tie || (distance < best.distance + tie && c < best.cell))
-      best = {c, found.xi(), distance, diameter(mesh, cell)};
-  }
+  if (boxes_.empty()) return best;
+  search(
+      0, point, [&] { return best.distance + 1e-12 * best.cell_diameter; },
+      [&](int cell) {
+        const Location found = in_cell(cell, point);
+        const double tie = 1e-12 * found.cell_diameter;
+        if (best.cell < 0 || found.distance < best.distance - tie || (found.distance < best.distance + tie && cell < best.cell)) best = found;
+      });
   return best;
 }
+
+std::vector<Location> Locator::all_nearest(const Vec3<double>& point) const {
+  const Location best = nearest(point);
+  std::vector<Location> all;
+  if (best.cell < 0) return all;
+  const double reach = best.distance + 1e-9 * best.cell_diameter;
+  search(
+      0, point, [&] { return reach; },
+      [&](int cell) {
+        const Location found = cell == best.cell ? best : in_cell(cell, point);
+        if (found.distance <= best.distance + 1e-9 * std::max(best.cell_diameter, found.cell_diameter)) all.push_back(found);
+      });
+  std::ranges::sort(all, {}, &Location::cell);
+  return all;
+}
+
+Location nearest(const Mesh& mesh, const Region& region, const Vec3<double>& point) { return Locator(mesh, region).nearest(point); }
 
 Location locate(const Mesh& mesh, const Region& region, const Vec3<double>& point, double tolerance) {
   if (region.cells.empty()) throw InputError("The region \"" + region.name + "\" is empty, no point lies in it.");

@@ -165,6 +165,9 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
     if (spec.normal >= 0) require_plane(spec, nodes, reference_positions(problem, *f.space));
     const std::vector<MeshPoint> places = spec.value.asks_for_normal ? mesh_points(*f.space, true) : std::vector<MeshPoint>();
     const bool back = spec.from > problem.continuation.from && std::ranges::find(spec.components, Component::initial) != spec.components.end();
+    const bool whole = std::ranges::all_of(spec.components, [](Component c) { return c == Component::initial; });
+    const bool kept = problem.fields[static_cast<std::size_t>(spec.field)].start && holds(spec, phases_.front()) &&
+                      (f.manifold->linear ? std::ranges::find(spec.components, Component::initial) != spec.components.end() : whole);
     std::vector<Held>& list = held.emplace_back();
     for (const auto& [node, place] : nodes) {
       const double* point = initial.at(spec.field, node, f.manifold->ambient);
@@ -173,6 +176,9 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
       if (back) value.initial.assign(point, point + f.manifold->ambient);
       list.push_back({value, spec.normal >= 0 && f.manifold->body_axes ? turning_about(spec, f, point, place) : spec.components});
       if (spec.value || back) values_.push_back(value);
+      if (!kept) continue;
+      kept_.push_back(value);
+      kept_.back().initial.assign(point, point + f.manifold->ambient);
     }
   }
 
@@ -232,6 +238,10 @@ void Constraints::apply(double t, Configuration& u) const {
   const Phase& now = phases_[phase(t)];
   for (const NodeValue& v : values_)
     if (holds(specs_[static_cast<std::size_t>(v.spec)], now)) write(v, t, u.at(v.field, v.node, ambient_[static_cast<std::size_t>(v.field)]));
+}
+
+void Constraints::restore(Configuration& u) const {
+  for (const NodeValue& v : kept_) write(v, u.t, u.at(v.field, v.node, ambient_[static_cast<std::size_t>(v.field)]));
 }
 
 }  // namespace karcher

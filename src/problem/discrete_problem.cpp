@@ -14,6 +14,7 @@
 #include "karcher/problem/mesh_points.hpp"
 #include "karcher/problem/probes.hpp"
 #include "karcher/problem/reference_energy.hpp"
+#include "karcher/problem/start_values.hpp"
 #include "karcher/problem/supports.hpp"
 #include "karcher/solve/petsc.hpp"
 #include "karcher/solve/spread.hpp"
@@ -217,6 +218,10 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
   }
   for (const TermSpec& spec : problem.terms) check_region_of_term(spec, d);
   d.constraints = Constraints(problem, d.fields, d.initial);
+  d.start = d.initial;
+  for (std::size_t f = 0; f < problem.fields.size(); ++f)
+    if (const FieldSpec& spec = problem.fields[f]; spec.start) d.start.values[f] = start_values(problem, spec, *spec.start, *d.fields[f].space);
+  d.constraints.restore(d.start);
   return d;
 }
 
@@ -246,13 +251,13 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
   measure_reference(problem, m);
   for (const std::string& sentence : seams(*m.discretisation.mesh)) m.warnings.push_back(sentence);
   for (const std::string& sentence : free_motions(problem, m)) m.warnings.push_back(sentence);
-  if (const Spread spread = widest_spread(*m.layout, m.discretisation.initial); spread.ratio > Spread::wide)
+  if (const Spread spread = widest_spread(*m.layout, m.discretisation.start); spread.ratio > Spread::wide)
     m.warnings.push_back("initially " + spread.sentence + ".");
   return m;
 }
 
 void require_energy(const Problem& problem, const DiscreteProblem& model) {
-  const Configuration& u = model.discretisation.initial;
+  const Configuration& u = model.discretisation.start;
   together([&] {
     model.functional->set_load_parameter(u.t);
     const Evaluation e = model.functional->energy(u);
@@ -264,7 +269,7 @@ void require_energy(const Problem& problem, const DiscreteProblem& model) {
 
 void rehearse(const Problem& problem, const DiscreteProblem& model) {
   together([&] {
-    probe_values(problem, model, model.discretisation.initial);
+    probe_values(problem, model, model.discretisation.start);
     model.functional->set_load_parameter(problem.continuation.to);
   });
   require_energy(problem, model);

@@ -36,7 +36,7 @@ Solution solve(const Problem& problem, std::span<Observer* const> observers) {
   });
   s.model_ = std::make_shared<DiscreteProblem>(build(problem, mesh));
   rehearse(problem, *s.model_);
-  Configuration u = s.model_->discretisation.initial;
+  Configuration u = s.model_->discretisation.start;
   s.states_.push_back(u);
   Recorder recorder(*s.model_->layout, s.states_, s.iterations_);
   std::vector<Observer*> all(observers.begin(), observers.end());

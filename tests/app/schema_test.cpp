@@ -38,7 +38,7 @@ manifold = "R3"
 order = 1
 interpolation = "projection"
 on = "all"
-initial = "reference"
+initial = {results = "earlier", step = 1, field = "m", values = "reference"}
 [[energies]]
 type = "harmonic"
 on = "all"
@@ -136,6 +136,7 @@ at = [1, 1, 0]
 /// The section's entries in a resolved problem: those of the table, of the only one of named tables, or of all in an array; the series among the parameters.
 std::vector<Entry> resolved(const Value& file, const SectionInfo& section) {
   if (section.name.empty()) return file.entries;
+  if (section.name == "fields.initial") return file.find("fields")->value.entries.at(0).value.find("initial")->value.entries;
   const Entry* e = file.find(section.name);
   if (!e) return {};
   if (section.name == "parameters") return e->value.find("P")->value.entries;

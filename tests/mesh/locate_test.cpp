@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "karcher/error.hpp"
@@ -88,6 +89,41 @@ TEST(Locate, RefusesPointsWhoseSquaredDistanceOverflowsAndPointsThatAreNotFinite
   EXPECT_EQ(told({{std::nan(""), 0, 0}}), "The point (nan, 0, 0) is not finite.");
   const double far = std::numeric_limits<double>::infinity();
   EXPECT_EQ(told({{0, far, 0}}), "The point (0, inf, 0) is not finite.");
+}
+
+TEST(Locate, FindsTheSameNearestCellAsALookAtEveryOne) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> any(-2, 2);
+  const Mesh mesh = generate({"torus", {{"cells", {16, 9}}, {"order", {2}}}, {}});
+  const Region& all = mesh.region("all");
+  const Locator locator(mesh, all);
+  for (int sample = 0; sample < 50; ++sample) {
+    const Vec3<double> x{{any(random), any(random), any(random)}};
+    double least = std::numeric_limits<double>::infinity();
+    for (const Cell& cell : all.cells) least = std::min(least, nearest(mesh, {"one", 2, {cell}}, x).distance);
+    EXPECT_NEAR(locator.nearest(x).distance, least, 1e-14);
+  }
+}
+
+TEST(Locate, TellsAllCellsAtAPlaceAlsoThoseOfOtherSheets) {
+  const Mesh flat = generate({"rectangle", {{"cells", {2, 2}}, {"size", {2, 2}}}, {{"shape", "quadrilateral"}}});
+  Mesh mesh = flat;  // and a second sheet across it, which shares no node with it
+  for (Vec3<double> x : flat.nodes) mesh.nodes.push_back({{x[0], 1, x[1] - 1}});
+  for (Cell c : flat.cells) {
+    for (int& n : c.nodes) n += static_cast<int>(flat.nodes.size());
+    mesh.cells.push_back(c);
+  }
+  mesh.regions["all"].cells = mesh.cells;
+  const Locator locator(mesh, mesh.region("all"));
+  const auto cells = [&](const Vec3<double>& x) {
+    std::vector<int> found;
+    for (const Location& l : locator.all_nearest(x)) found.push_back(l.cell);
+    return found;
+  };
+  EXPECT_EQ(cells({{0.5, 0.5, 0}}), (std::vector{0}));
+  EXPECT_EQ(cells({{1, 0.5, 0}}), (std::vector{0, 1}));
+  EXPECT_EQ(cells({{1, 1, 0}}).size(), 8u);
+  EXPECT_EQ(cells({{0.5, 1, 0.3}}), (std::vector{6}));
 }
 
 }  // namespace

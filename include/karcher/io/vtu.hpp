@@ -21,6 +21,9 @@ const std::vector<int>& vtk_node_order(CellKind kind, int order);
 /// Writes one part atomically. t is stored as field data "TimeValue".
 void write_vtu(const std::filesystem::path& file, const OutputPart& part, double t);
 
+/// A part as write_vtu wrote it (its region stands in the collection only). \throws InputError naming the file if it is missing, damaged or not of write_vtu
+OutputPart read_vtu(const std::filesystem::path& file);
+
 /// One file of a collection.
 struct VtuEntry {
   int state = 0, part = 0;

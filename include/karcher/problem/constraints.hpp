@@ -35,13 +35,15 @@ class Constraints {
   bool has_values() const { return !values_.empty(); }
   /// Writes the values at t into the fixed components of u.
   void apply(double t, Configuration& u) const;
+  /// Puts the initial values back that the first load steps keep, into a u that starts elsewhere.
+  void restore(Configuration& u) const;
 
  private:
   /// What an entry wants of a node.
   struct NodeValue {
     int spec = 0, field = 0, node = 0;
     MeshPoint place;
-    std::vector<double> initial;  ///< of an entry that sets in late and goes back to the initial values
+    std::vector<double> initial;  ///< of an entry that goes back to the initial values: one that sets in late, or of a field that starts elsewhere
   };
 
   void find_phases(const Problem& problem);
@@ -52,6 +54,7 @@ class Constraints {
   std::vector<DirichletSpec> specs_;
   std::vector<Phase> phases_;
   std::vector<NodeValue> values_;
+  std::vector<NodeValue> kept_;  ///< of restore()
   std::vector<int> ambient_;
   double same_ = 0;  ///< values of t that differ by less are the same
 };

@@ -62,6 +62,14 @@ struct ReferenceSpec {
   int order = 0;                                              ///< of its Lagrange interpolant; 0: the deformation's, else 2
 };
 
+/// A load step of earlier results that a field starts from.
+struct StartSpec {
+  Place place;
+  std::filesystem::path results;  ///< directory, absolute
+  std::optional<int> step;        ///< none: the last one written
+  std::string field;              ///< its name there
+};
+
 struct FieldSpec {
   std::string name;
   Place place, on_place;
@@ -71,6 +79,8 @@ struct FieldSpec {
   std::string on = "all";
   PointFunction initial;  ///< empty: the reference position (R^n), or
   bool normal = false;    ///< the unit normal of the stress-free surface (nodal_normals.hpp)
+  /// Where the solver starts instead. All that is measured from the initial values (stress-free frames, supports that keep them) stays with those above.
+  std::optional<StartSpec> start;
 };
 
 /// An energy or a load.

@@ -87,7 +87,7 @@ TEST(Symbols, AcceptWhatMuParserAccepts) {
   parser.DefineFun("pow", [](double a, double b) { return std::pow(a, b); });
   std::mt19937 random(1);
   int accepted = 0, refused = 0;
-  for (int n = 0; n < 50000; ++n) {
+  for (int n = 0; n < 10000; ++n) {
     std::string text;
     for (unsigned k = 1 + random() % 9; k > 0; --k) text += pieces[random() % std::size(pieces)];
     bool theirs = true;
@@ -114,8 +114,8 @@ TEST(Symbols, AcceptWhatMuParserAccepts) {
       ++refused;
     }
   }
-  EXPECT_GT(accepted, 1000);
-  EXPECT_GT(refused, 20000);
+  EXPECT_GT(accepted, 200);
+  EXPECT_GT(refused, 4000);
 }
 
 TEST(Symbols, KnowWhatIsANameAndWhatIsTaken) {

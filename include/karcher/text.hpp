@@ -41,11 +41,22 @@ inline int edit_distance(std::string_view a, std::string_view b) {
 /// Names of regions, fields, probes and parameters have at most as many characters (bytes).
 inline constexpr std::size_t longest_name = 100;
 
-/// The candidate with the smallest edit distance, the first of equals; empty when none is near (more than a third of the letters are wrong, at least
+/// Letters and digits alone, in lower case: "SO(3)" and "so3" are written for one name.
+inline std::string bare(std::string_view name) {
+  std::string s;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c))) s += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+
+/// The candidate of the same letters and digits, else the one with the smallest edit distance, the first of equals; empty when none is near (more than a third of the letters are wrong, at least
 /// one wrong letter is always forgiven) or the name is longer than names are.
 inline std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::string best;
   if (name.size() > longest_name) return best;
+  if (const std::string letters = bare(name); !letters.empty())
+    for (const std::string& c : candidates)
+      if (bare(c) == letters) return c;
   int smallest = 1 + std::max(1, static_cast<int>(name.size()) / 3);
   for (const std::string& c : candidates) {
     const int d = edit_distance(name, c);

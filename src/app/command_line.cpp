@@ -130,10 +130,10 @@ int command_line(int argc, char** argv) {
     };
   });
 
-  std::string name, example;
-  CLI::App& new_verb = *app.add_subcommand("new", "start from a worked example");
+  std::string name, example = "template";
+  CLI::App& new_verb = *app.add_subcommand("new", "start from a template with comments, or from a worked example");
   new_verb.add_option("NAME", name, "directory to be made")->required();
-  new_verb.add_option("--from", example, "example: karcher list examples")->required()->type_name("EXAMPLE");
+  new_verb.add_option("--from", example, "a worked example instead of the template: karcher list examples")->type_name("EXAMPLE");
   new_verb.callback([&] { action = [&] { return make_new(name, example); }; });
 
   std::string what;

@@ -10,9 +10,11 @@
 #include "app/verbs.hpp"
 #include "karcher/interpolation/evaluate.hpp"
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/io/probes_csv.hpp"
 #include "karcher/mesh/quadrature.hpp"
 #include "karcher/mesh/refine.hpp"
 #include "karcher/problem/discretisation_error.hpp"
+#include "karcher/problem/probes.hpp"
 #include "karcher/solve/collectives.hpp"
 #include "karcher/solve/continuation.hpp"
 #include "karcher/solve/petsc.hpp"
@@ -32,6 +34,7 @@ struct Level {
   double energy = unknown;
   std::string status;
   std::map<std::string, Summary::Error> errors, orders;
+  std::map<std::string, std::vector<double>> probes;
 };
 
 /// Where a point of a cell of `fine` lies on an earlier level.
@@ -159,6 +162,9 @@ std::string json_text(const std::vector<Level>& levels) {
       l[key] = nlohmann::ordered_json::object();
       for (const auto& [field, e] : *values) l[key][field] = {{"l2", number(e.l2)}, {"h1", number(e.h1)}};
     }
+    l["probes"] = nlohmann::ordered_json::object();
+    for (const auto& [probe, values] : level.probes)
+      for (const double x : values) l["probes"][probe].push_back(number(x));
     all["levels"].push_back(l);
   }
   return all.dump(2) + "\n";
@@ -172,6 +178,7 @@ const Summary::Error* find(const std::map<std::string, Summary::Error>& all, con
 std::string csv_text(const std::vector<Level>& levels) {
   std::string text = "level,cells,unknowns,energy,status";
   for (const Field& f : levels.front().fields) text += fmt::format(",l2_{0},h1_{0},order_l2_{0},order_h1_{0}", f.name);
+  for (const std::string& name : probe_columns(levels.front().probes)) text += "," + name;
   text += '\n';
   const auto cell = [](double x) { return std::isfinite(x) ? fmt::format(",{}", x) : std::string(","); };
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -182,6 +189,8 @@ std::string csv_text(const std::vector<Level>& levels) {
         const Summary::Error* e = find(*values, f.name);
         text += cell(e ? e->l2 : unknown) + cell(e ? e->h1 : unknown);
       }
+    for (const auto& [probe, values] : l.probes)
+      for (const double x : values) text += cell(x);
     text += '\n';
   }
   return text;
@@ -206,6 +215,17 @@ std::string table_text(const std::vector<Level>& levels, bool exact) {
                           order(o ? o->h1 : unknown));
     }
     text += "  " + l.status + "\n";
+  }
+  const std::vector<std::string> columns = probe_columns(levels.front().probes);
+  if (columns.empty()) return text;
+  text += "probes at the end\nlevel";
+  for (const std::string& name : columns) text += fmt::format(" {:>18}", name);
+  text += '\n';
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    text += fmt::format("{:>5}", k);
+    for (const auto& [probe, values] : levels[k].probes)
+      for (const double x : values) text += fmt::format(" {:>18.10g}", x);
+    text += '\n';
   }
   return text;
 }
@@ -263,6 +283,7 @@ int converge(const ConvergeOptions& options) {
     }
     level.status = solves ? std::string(name(reached)) : "interpolated";
     if (reached != Status::converged) status = reached;
+    level.probes = probe_values(problem, model, level.u);
     if (exact) level.errors = errors_against_exact(problem, model, level.u);
     if (reached == Status::interrupted) break;
   }

@@ -5,6 +5,7 @@
 #include "app/launch.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
+#include "karcher/io/run_log.hpp"
 #include "karcher/problem/reference_energy.hpp"
 #include "karcher/problem/results.hpp"
 #include "karcher/solve/continuation.hpp"
@@ -75,14 +76,16 @@ int run(const RunOptions& options) {
   const int last = last_load_step(loads, start);
 
   std::unique_ptr<ConsoleTable> table;
+  std::string head;  // of the run
   if (talks) {
+    head = fmt::format("{}: {} unknowns, {} free, on {} rank{}{}", problem.title, results.summary().unknowns, model.layout->free_dofs(),
+                       model.layout->ranks(), model.layout->ranks() == 1 ? "" : "s",
+                       finished > 0 ? fmt::format(", resumed after load step {} (t = {:.6g})", finished, u.t) : std::string());
+    if (const std::string sentence = reference_sentence(model); !sentence.empty()) head += "\n" + sentence;
     if (!options.quiet) {
       for (const std::string& warning : model.warnings) fmt::print(stderr, "warning: {}\n", warning);
       table = std::make_unique<ConsoleTable>(stdout, last, on_terminal());
-      table->line(fmt::format("{}: {} unknowns, {} free, on {} rank{}{}", problem.title, results.summary().unknowns, model.layout->free_dofs(),
-                              model.layout->ranks(), model.layout->ranks() == 1 ? "" : "s",
-                              finished > 0 ? fmt::format(", resumed after load step {} (t = {:.6g})", finished, u.t) : std::string()));
-      if (const std::string sentence = reference_sentence(model); !sentence.empty()) table->line(sentence);
+      table->line(head);
     }
   }
   if (options.resume)
@@ -90,15 +93,25 @@ int run(const RunOptions& options) {
   else
     results.begin(u);
   if (talks) report_results(results.directory().string());
-  if (table && !results.replaced().empty()) table->line(results.replaced());
   std::unique_ptr<IterationsCsv> iterations;
+  std::unique_ptr<RunLog> log;
   together([&] {
-    if (talks) iterations = std::make_unique<IterationsCsv>(results.directory() / "iterations.csv", options.resume ? finished + 1 : 0);
+    if (!talks) return;
+    iterations = std::make_unique<IterationsCsv>(results.directory() / "iterations.csv", options.resume ? finished + 1 : 0);
+    log = std::make_unique<RunLog>(results.directory() / "run.log", last, options.resume);
+    for (const std::string& warning : model.warnings) log->table().line("warning: " + warning);
+    log->table().line(head);
   });
 
-  if (table) results.warn_with([&](const std::string& sentence) { table->line("warning: " + sentence); });
+  const auto say = [&](const std::string& sentence) {
+    if (table) table->line(sentence);
+    if (log) log->table().line(sentence);
+  };
+  if (!results.replaced().empty()) say(results.replaced());
+  results.warn_with([&](const std::string& sentence) { say("warning: " + sentence); });
   std::vector<Observer*> listeners;
   if (table) listeners.push_back(table.get());
+  if (log) listeners.push_back(&log->table());
   if (iterations) listeners.push_back(iterations.get());
   listeners.push_back(&results);
   const ContinuationReport report =
@@ -107,6 +120,7 @@ int run(const RunOptions& options) {
   results.finish(report.status, outcome(report, finished, last));
   if (!results.page_trouble().empty()) fmt::print(stderr, "warning: there is no page: {} karcher view makes it.\n", results.page_trouble());
   table.reset();
+  if (log) log->table().line(final_report(results.summary()));
   if (talks && !options.quiet) {
     fmt::print("{}", final_report(results.summary()));
     fmt::print("  {:<24} {}\n", "results", results.directory().string());

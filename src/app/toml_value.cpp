@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "karcher/io/atomic_file.hpp"
+#include "karcher/text.hpp"
 
 namespace karcher::app {
 namespace {
@@ -247,6 +248,40 @@ void write(const Value& table, const std::string& header, int depth, std::string
   }
 }
 
+/// What a line that is not TOML may have meant, as a sentence to follow.
+std::string hint_for(std::string_view line) {
+  const auto trimmed = [](std::string_view s) {
+    while (!s.empty() && std::isspace(static_cast<unsigned char>(s.front()))) s.remove_prefix(1);
+    while (!s.empty() && std::isspace(static_cast<unsigned char>(s.back()))) s.remove_suffix(1);
+    return s;
+  };
+  line = trimmed(line.substr(0, line.find('#')));
+  for (const std::string_view name : {"fields", "regions"})
+    if (line.starts_with("[[" + std::string(name))) return fmt::format(" Every one of the {0} is a table with its name: [{0}.NAME].", name);
+  const std::size_t equals = line.find('=');
+  if (equals == line.npos) return {};
+  const std::string_view key = trimmed(line.substr(0, equals)), value = trimmed(line.substr(equals + 1));
+  if (value.empty()) return {};
+  const auto first = static_cast<unsigned char>(value.front());
+  if (std::isalpha(first)) return fmt::format(" A string stands in quotes: {} = \"{}\".", key, shortened(value, 100));
+  const std::size_t end = value.find_first_not_of("0123456789+-._eE");
+  if (end == value.npos || (!std::isdigit(first) && value.find_first_of("+-.") != 0)) return {};
+  const std::string_view rest = trimmed(value.substr(end));
+  if (rest.empty()) return {};
+  if (std::isalpha(static_cast<unsigned char>(rest.front())))
+    return " Numbers have no units here: state all of them in one system, as N, mm and MPa.";
+  return fmt::format(" A formula stands in quotes: {} = \"{}\".", key, shortened(value, 100));
+}
+
+std::string line_of(std::string_view content, std::size_t number) {
+  for (; number > 1; --number) {
+    const std::size_t end = content.find('\n');
+    if (end == content.npos) return {};
+    content.remove_prefix(end + 1);
+  }
+  return std::string(content.substr(0, content.find('\n')));
+}
+
 }  // namespace
 
 Value Value::of(bool b) {
@@ -325,7 +360,7 @@ Value read_toml(const std::filesystem::path& file, std::span<const std::string> 
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     if (!what.empty() && what.back() != '.') what += '.';
-    refuse(place_of(error.source(), file.string()), "this is not TOML: " + what);
+    refuse(place_of(error.source(), file.string()), "this is not TOML: " + what + hint_for(line_of(content, error.source().begin.line)));
   }
   for (const std::string& text : overrides) apply_override(root, text);
   return root;

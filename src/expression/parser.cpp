@@ -103,7 +103,9 @@ bool Parser::continuation(const Token& token) {
       return true;
     }
   }
-  unexpected(token, "an operator (\"*\" multiplies)");
+  const bool unit = token.kind == Token::Kind::name && !symbols_.find(token.text) && !find_constant(token.text) && !find_function(token.text);
+  unexpected(token,
+             unit ? "an operator; numbers have no units here: state all of them in one system, as N, mm and MPa" : "an operator (\"*\" multiplies)");
 }
 
 void Parser::binary(Op op, int precedence) {

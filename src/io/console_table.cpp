@@ -50,9 +50,20 @@ void ConsoleTable::line(const std::string& text) {
   std::fflush(out_);
 }
 
+std::string ConsoleTable::time_left(int load_step) const {
+  constexpr double worth_telling = 5;
+  if (steps_ == 0 || ended_ == 0) return {};
+  const double left = seconds_ / ended_ * (steps_ - load_step + 1);
+  if (left < worth_telling) return {};
+  return left < 100    ? fmt::format("; about {:.0f} s left", left)
+         : left < 6000 ? fmt::format("; about {:.0f} min left", left / 60)
+                       : fmt::format("; about {:.1f} h left", left / 3600);
+}
+
 void ConsoleTable::load_step_begins(int load_step, double t) {
   erase_transient();
-  fmt::print(out_, "\nLoad step {}{}, t = {:.6g}\n", load_step, steps_ > 0 ? fmt::format(" of {}", steps_) : std::string(), t);
+  fmt::print(out_, "\nLoad step {}{}, t = {:.6g}{}\n", load_step, steps_ > 0 ? fmt::format(" of {}", steps_) : std::string(), t,
+             time_left(load_step));
   fmt::print(out_, fmt::runtime(columns), "iter", "energy", "|gradient|", "|step|", "radius", "shift", "ratio", "");
   std::fflush(out_);
 }
@@ -73,6 +84,8 @@ void ConsoleTable::iteration(const IterationRecord& r) {
 
 void ConsoleTable::load_step_finished(const StepReport& report, const Configuration&) {
   erase_transient();
+  ++ended_;
+  seconds_ += report.seconds;
   fmt::print(out_, "{} after {}, {:.2f} s. {}\n", name(report.status), counted(report.iterations, "iteration", "iterations"), report.seconds,
              report.reason);
   for (const std::string& warning : report.warnings) fmt::print(out_, "warning: {}\n", warning);

@@ -14,8 +14,7 @@ std::string quoted(const std::string& name) {
 
 std::string header(const LoadStepSummary& step) {
   std::string line = "load_step,t";
-  for (const auto& [name, values] : step.probes)
-    for (std::size_t i = 0; i < values.size(); ++i) line += fmt::format(",{}", quoted(values.size() == 1 ? name : fmt::format("{}.{}", name, i)));
+  for (const std::string& name : probe_columns(step.probes)) line += "," + name;
   return line + "\n";
 }
 
@@ -27,6 +26,13 @@ std::string row(int load_step, const LoadStepSummary& step) {
 }
 
 }  // namespace
+
+std::vector<std::string> probe_columns(const std::map<std::string, std::vector<double>>& probes) {
+  std::vector<std::string> names;
+  for (const auto& [name, values] : probes)
+    for (std::size_t i = 0; i < values.size(); ++i) names.push_back(quoted(values.size() == 1 ? name : fmt::format("{}.{}", name, i)));
+  return names;
+}
 
 ProbesCsv::ProbesCsv(std::filesystem::path file, const std::vector<LoadStepSummary>& finished) : file_(std::move(file)) {
   if (finished.empty() || finished.front().probes.empty()) return;

@@ -395,6 +395,51 @@ TEST(Catalogue, ListsAndExplains) {
   EXPECT_EQ(shop.karcher("--version").out, std::string(version_string) + "\n");
 }
 
+TEST(New, MakesATemplateThatRuns) {
+  const Workshop shop;
+  ASSERT_EQ(shop.karcher("new mine").code, 0);
+  EXPECT_NE(content(shop.directory() / "mine/problem.toml").find("# others: karcher list energies"), std::string::npos);
+  const Outcome o = shop.karcher("run mine/problem.toml -q");
+  EXPECT_EQ(o.code, 0) << o.err;
+}
+
+TEST(Run, LeavesALogOfWhatItSaysAlsoAQuietOne) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const Outcome loud = shop.karcher("run strip.toml -o loud");
+  EXPECT_EQ(shop.karcher("run strip.toml -q -o quiet --set continuation.to=0.5 --set continuation.steps=1").code, 0);
+  const std::string log = content(shop.directory() / "loud/run.log");
+  EXPECT_TRUE(log.starts_with("karcher " + std::string(version_string) + ", 20"));
+  // All that was printed but the times, the list of files and the last line.
+  std::istringstream lines(loud.out);
+  for (std::string line; std::getline(lines, line) && line.find(" results ") == std::string::npos;)
+    EXPECT_NE(log.find(line), std::string::npos) << line;
+  EXPECT_NE(log.find("peak memory"), std::string::npos);
+  const std::string quiet = content(shop.directory() / "quiet/run.log");
+  EXPECT_NE(quiet.find("Load step 1 of 1, t = 0.5"), std::string::npos);
+  EXPECT_EQ(shop.karcher("run strip.toml -q -o quiet --resume").code, 0);
+  const std::string resumed = content(shop.directory() / "quiet/run.log");
+  EXPECT_TRUE(resumed.starts_with(quiet));
+  EXPECT_NE(resumed.find("resumed after load step 1", quiet.size()), std::string::npos);
+  EXPECT_EQ(shop.karcher("run strip.toml -q -o quiet").code, 0);
+  EXPECT_EQ(content(shop.directory() / "quiet/run.log").find("resumed"), std::string::npos) << "a new run has a new log";
+}
+
+TEST(Converge, TabulatesProbes) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const Outcome o = shop.karcher("converge strip.toml --levels 1 -o orders");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto levels = nlohmann::json::parse(content(shop.directory() / "orders/convergence.json"))["levels"];
+  const auto run_alone = shop.karcher("run strip.toml -q -o alone");
+  EXPECT_EQ(levels[0]["probes"], summary(shop, "alone")["load_steps"][1]["probes"]);
+  EXPECT_EQ(levels[1]["probes"]["tip"].size(), 3u);
+  const std::string csv = content(shop.directory() / "orders/convergence.csv");
+  EXPECT_NE(csv.find(",tip.0,tip.1,tip.2,turn.0,turn.1,turn.2\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(fmt::format(",{}", levels[1]["probes"]["tip"][2].get<double>())), std::string::npos);
+  EXPECT_NE(o.out.find("turn.2"), std::string::npos) << o.out;
+}
+
 TEST(New, CopiesAnExampleWithItsFilesAndOverwritesNothing) {
   const Workshop shop;
   Outcome o = shop.karcher("new mine --from curve-shortening");

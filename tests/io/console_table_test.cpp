@@ -68,6 +68,33 @@ TEST(ConsoleTable, RowsAreAlignedUnderTheirHeads) {
   EXPECT_EQ(rows[5], "converged after 1 iteration, 0.50 s. The gradient norm 1e-9 is at most 1e-8.");
 }
 
+TEST(ConsoleTable, TellsTheTimeLeftByTheMeanOfTheLoadStepsThatEnded) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* out = open_memstream(&text, &size);
+  {
+    ConsoleTable table(out, 1000, false), uncounted(out, 0, false);
+    StepReport report;
+    for (const auto& [seconds, next] : {std::pair(20.0, 999), {0.0, 996}, {20.0, 2}, {1e6, 3}}) {
+      report.seconds = seconds;
+      table.load_step_finished(report, Configuration());
+      uncounted.load_step_finished(report, Configuration());
+      table.load_step_begins(next, 0.5);
+      uncounted.load_step_begins(next, 0.5);
+    }
+  }
+  std::fclose(out);
+  std::vector<std::string> heads;
+  for (const std::string& line : lines(text))
+    if (line.starts_with("Load step")) heads.push_back(line);
+  std::free(text);
+  ASSERT_EQ(heads.size(), 8U);
+  EXPECT_EQ(heads[0], "Load step 999 of 1000, t = 0.5; about 40 s left");
+  EXPECT_EQ(heads[2], "Load step 996 of 1000, t = 0.5; about 50 s left");
+  EXPECT_EQ(heads[4], "Load step 2 of 1000, t = 0.5; about 3.7 h left");
+  for (std::size_t i = 1; i < 8; i += 2) EXPECT_EQ(heads[i].find("left"), std::string::npos) << "their number is not known";
+}
+
 TEST(ConsoleTable, OnlyATerminalSeesTransientLinesAndTheyAreAllErased) {
   const std::string plain = run(false), terminal = run(true);
   EXPECT_EQ(plain.find('\r'), std::string::npos);

@@ -19,6 +19,8 @@ TEST(Text, NearestNameForgivesAThirdOfTheLetters) {
   EXPECT_EQ(nearest_name("Volume", names), "volume");
   EXPECT_EQ(nearest_name("banana", names), "");
   EXPECT_EQ(nearest_name("x", std::vector<std::string>{"y"}), "");
+  EXPECT_EQ(nearest_name("SO(3)", std::vector<std::string>{"S2", "SO3"}), "SO3");
+  EXPECT_EQ(nearest_name("Cosserat Shell", names), "cosserat-shell");
   EXPECT_EQ(nearest_name("SO4", std::vector<std::string>{"S2", "SO3"}), "SO3");
 }
 

@@ -30,11 +30,15 @@ class ConsoleTable : public Observer {
 
  private:
   void erase_transient();
+  /// "; about 3 min left", by the mean of the load steps that have ended; nothing where their number is not known or there is little to wait for.
+  std::string time_left(int load_step) const;
 
   std::FILE* out_;
   int steps_;
   bool terminal_;
   bool transient_shown_ = false;
+  int ended_ = 0;       ///< load steps
+  double seconds_ = 0;  ///< that they took
 };
 
 /// Sizes, energies, load steps, time by phase, work, the reason: the whole summary for a reader. Several lines, each ended by a newline.

@@ -18,12 +18,12 @@ USES = {
     "energy": ["manifold"],
     "mesh": ["math"],
     "field": ["mesh", "manifold"],
-    "assembly": ["interpolation", "energy", "field"],
+    "assembly": ["interpolation", "energy", "field", "expression"],
     "catalogue": ["assembly"],
     "solve": ["assembly"],
     "io": ["solve"],
     "problem": ["io", "catalogue"],
-    "app": ["problem", "expression"],
+    "app": ["problem"],
     "testing": ["io"],  # laws and checks for users' own types; only tests use it
 }
 

@@ -2,7 +2,9 @@
 /// \file
 /// Places in a problem file, as messages name them.
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "karcher/error.hpp"
 
@@ -19,6 +21,12 @@ struct Place {
   }
   /// The place `columns` to the right.
   Place shifted(int columns) const { return {file, line, column + columns}; }
+  /// The place behind a text that begins here.
+  Place after(std::string_view text) const {
+    const std::size_t end = text.rfind('\n');
+    if (end == text.npos || line == 0) return shifted(static_cast<int>(text.size()));
+    return {file, line + static_cast<int>(std::count(text.begin(), text.end(), '\n')), static_cast<int>(text.size() - end)};
+  }
 };
 
 [[noreturn]] inline void refuse(const Place& place, const std::string& sentence) {

@@ -45,6 +45,7 @@ std::string number_text(double d) {
 
 std::string value_text(const Value& v) {
   if (v.is(Value::Kind::text)) return v.text;
+  if (v.is(Value::Kind::array)) return v.items.empty() ? "none" : "an array";
   if (v.is(Value::Kind::boolean)) return v.boolean ? "true" : "false";
   return v.is(Value::Kind::integer) ? std::to_string(v.integer) : number_text(v.number);
 }
@@ -106,6 +107,10 @@ void doc_term(const EnergyInfo& info) {
   std::string dimensions;
   for (const int d : info.dimensions) dimensions += (dimensions.empty() ? "" : ", ") + std::to_string(d);
   fmt::print("\n  on          region of dimension {}\n", dimensions);
+  for (const KeyInfo& k : info.formula ? formula_keys() : std::vector<KeyInfo>()) {
+    fmt::print("\n  {} ({}, {})\n", k.name, k.type, default_text(k.standard, "default: "));
+    print_wrapped(k.description, 6);
+  }
   for (const FieldSlot& f : info.fields)
     fmt::print("  {:<11} field with values in {}: {}\n", f.key, join_names(f.manifold_names(), ", "), f.description);
   for (const Parameter& p : info.parameters) {

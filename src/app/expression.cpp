@@ -85,7 +85,7 @@ ParameterValue Expression::parameter() const {
   return value;
 }
 
-Scope::Scope() : symbols_({"x", "y", "z", "t"}) {}
+Scope::Scope() : symbols_({"x", "y", "z", "t"}), first_parameter_(symbols_.size()) {}
 
 void Scope::define(const std::string& name, const Expression& value, const Place& place) {
   if (name.size() > longest_name)
@@ -96,7 +96,26 @@ void Scope::define(const std::string& name, const Expression& value, const Place
   if (value.is_constant())
     symbols_.define(name, value.constant());
   else
-    sources_.emplace(symbols_.define(name, value.state_->formula), value.state_->source);
+    parameters_.emplace(symbols_.define(name, value.state_->formula), value);
+}
+
+void Scope::count(std::size_t operations, const std::string& key, const Place& place) const {
+  operations_ += operations;
+  if (operations_ > most_operations)
+    refuse(place, fmt::format("up to {}, the expressions of the file have more than {} operations, with those of the parameters that they use.", key,
+                              most_operations));
+}
+
+std::vector<std::pair<std::string, Expression>> Scope::parameters() const {
+  std::vector<std::pair<std::string, Expression>> all;
+  for (std::size_t n = first_parameter_; n < symbols_.size(); ++n) {
+    const auto s = static_cast<std::uint32_t>(n);
+    if (const auto varying = parameters_.find(s); varying != parameters_.end())
+      all.emplace_back(symbols_[s].name, varying->second);
+    else
+      all.emplace_back(symbols_[s].name, symbols_[s].value);
+  }
+  return all;
 }
 
 Expression Scope::compile(const std::string& text, const std::string& key, const Place& place) const {
@@ -104,14 +123,11 @@ Expression Scope::compile(const std::string& text, const std::string& key, const
   try {
     s.formula = symbols_.compile(text);
   } catch (const FormulaError& error) {
-    refuse(place.shifted(static_cast<int>(error.position)), "expression \"" + shortened(text) + "\" of " + key + ": " + error.what());
+    refuse(place.after(std::string_view(text).substr(0, error.position)), "expression \"" + shortened(text) + "\" of " + key + ": " + error.what());
   }
   s.program = symbols_.link(s.formula);
-  operations_ += s.program.code().size();
-  if (operations_ > most_operations)
-    refuse(place, fmt::format("up to {}, the expressions of the file have more than {} operations, with those of the parameters that they use.", key,
-                              most_operations));
-  for (const Program::Definition& d : s.program.definitions()) s.parameters.push_back(sources_.at(d.symbol));
+  count(s.program.code().size(), key, place);
+  for (const Program::Definition& d : s.program.definitions()) s.parameters.push_back(parameters_.at(d.symbol).state_->source);
   const auto& inputs = s.program.inputs();
   const bool uses_t = !inputs.empty() && inputs.back() == t_variable;
   s.source = std::make_shared<const Expression::Source>(Expression::Source{text, key, place, inputs.size() > (uses_t ? 1 : 0), uses_t});

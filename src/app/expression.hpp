@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "karcher/energy/parameter.hpp"
@@ -52,12 +53,18 @@ class Scope {
   static constexpr std::size_t most_operations = 10000000;
   /// \param key for messages \param place of the first character of the text \throws InputError with the place of the error, or if there are too many operations
   Expression compile(const std::string& text, const std::string& key, const Place& place) const;
+  /// Counts operations of a text that somebody else compiles. \throws InputError if there are too many
+  void count(std::size_t operations, const std::string& key, const Place& place) const;
   std::vector<std::string> names() const { return symbols_.names(); }
+  bool is_taken(const std::string& name) const { return symbols_.is_taken(name); }
+  /// Name and value of every parameter.
+  std::vector<std::pair<std::string, Expression>> parameters() const;
 
  private:
   Symbols symbols_;
-  mutable std::size_t operations_ = 0;                                          ///< of all expressions that were compiled
-  std::map<std::uint32_t, std::shared_ptr<const Expression::Source>> sources_;  ///< of parameters that are not constant, by symbol
+  std::size_t first_parameter_;
+  mutable std::size_t operations_ = 0;              ///< of all expressions that were compiled
+  std::map<std::uint32_t, Expression> parameters_;  ///< those that are not constant, by symbol
 };
 
 }  // namespace karcher::app

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/density.hpp"
 #include "app/schema.hpp"
 #include "app/section.hpp"
 #include "karcher/catalogue/catalogue.hpp"
@@ -92,6 +93,7 @@ void point_parameter(Section& s, const Parameter& p, const ManifoldOps& m, const
 /// The catalogue's entry as a part of the table of keys.
 std::vector<KeyInfo> term_keys(const std::string& section, const EnergyInfo& info) {
   std::vector<KeyInfo> keys = section_info(section).keys;
+  if (info.formula) keys.insert(keys.end(), formula_keys().begin(), formula_keys().end());
   for (const FieldSlot& f : info.fields) keys.push_back({.name = f.key});
   for (const Parameter& p : info.parameters) {
     KeyInfo& key = keys.emplace_back(KeyInfo{.name = p.name, .kind = p.point ? KeyKind::point : KeyKind::expression});
@@ -180,6 +182,46 @@ void read_fields(Section& s, const EnergyInfo& info, const ProblemFile& problem,
   }
 }
 
+/// Fields and density of an energy that is a formula.
+void read_formula(Section& s, ProblemFile& problem, TermSpec& spec) {
+  std::vector<Density::Field> fields;
+  const std::vector<Value> names = s.texts("fields");
+  if (names.empty() || names.size() > 3)
+    refuse(s.place("fields"), fmt::format("{} takes one to three fields, not {}.", s.path("fields"), names.size()));
+  const std::string moves = s.has("moves") ? s.text("moves") : std::string();
+  for (const Value& v : names) {
+    const int index = field_index(problem, v.text, v.place);
+    const FieldSpec& field = problem.fields[static_cast<std::size_t>(index)];
+    if (std::find(spec.fields.begin(), spec.fields.end(), index) != spec.fields.end())
+      refuse(v.place, fmt::format("{} names the field \"{}\" twice.", s.path("fields"), v.text));
+    if (!Symbols::is_name(v.text))
+      refuse(v.place, fmt::format("the field \"{}\" cannot be used in formulas; names there are made of letters, digits and underscores.", v.text));
+    if (problem.scope.is_taken(v.text))
+      refuse(v.place, fmt::format("the field \"{}\" cannot be used in formulas: \"{}\" means something else in expressions.", v.text, v.text));
+    spec.fields.push_back(index);
+    spec.info.fields.push_back({.key = v.text, .manifolds = {field.manifold}, .description = {}, .moves = v.text == moves});
+    fields.push_back({v.text, field.manifold});
+  }
+  if (s.has("moves")) {
+    const auto moving = std::find_if(fields.begin(), fields.end(), [&](const Density::Field& f) { return f.name == moves; });
+    std::vector<std::string> known;
+    for (const Density::Field& f : fields) known.push_back(f.name);
+    if (moving == fields.end()) refuse_name(s.place("moves"), s.path("moves") + " must be one of the fields, not", moves, known);
+    if (!moving->manifold->linear)
+      refuse(s.place("moves"), fmt::format("{}: the values of \"{}\" are points of {}, not places.", s.path("moves"), moves, moving->manifold->name));
+  }
+  std::vector<std::string> others;
+  for (std::size_t f = 0; f < problem.fields.size(); ++f)
+    if (std::find(spec.fields.begin(), spec.fields.end(), static_cast<int>(f)) == spec.fields.end()) others.push_back(problem.fields[f].name);
+  std::vector<Density::Text> let;
+  for (const Value& v : s.texts("let")) let.push_back({fmt::format("{}.{}", s.path("let"), let.size()), v});
+  const Density density(problem.scope, std::move(fields), std::move(others), std::move(let), {s.path("density"), s.formula("density")});
+  spec.make = [density, info = spec.info](TermInput input) {
+    input.formula = std::make_shared<const DensityFormula>(density.formula(input.region.dim));
+    return make_term(info, std::move(input));
+  };
+}
+
 }  // namespace
 
 int field_index(const ProblemFile& problem, const std::string& name, const Place& place) {
@@ -210,6 +252,7 @@ void read_terms(const std::string& section, const std::vector<Value>& tables, Pr
     spec.make = [name = info.term_name()](TermInput input) { return make_term(name, std::move(input)); };
     spec.on = s.text("on");
     spec.on_place = s.place("on");
+    if (info.formula) read_formula(s, problem, spec);
     read_fields(s, info, problem, spec);
     read_choices(s, info, spec);
     read_parameters(s, info, problem, spec);

@@ -251,6 +251,28 @@ const SectionInfo& section_info(const std::string& name) {
   throw std::logic_error("no section " + name);
 }
 
+const std::vector<KeyInfo>& formula_keys() {
+  static const std::vector<KeyInfo> keys{
+      {.name = "fields", .kind = KeyKind::texts, .type = "1 to 3 names", .standard = required, .description = "fields that the density depends on"},
+      {.name = "density",
+       .kind = KeyKind::formula,
+       .type = "expression",
+       .standard = required,
+       .description = "in x, y, z, t, the parameters, and for a field u: u[0], u[1], ... its ambient coordinates; u[0].x, u[0].y, u[0].z their "
+                      "derivatives along the axes, "
+                      "on a curve or surface those of the gradient there; of rotations also u.k1[0..2], u.k2, u.k3, the body rates along the tangent "
+                      "directions of the cell, "
+                      "and u.d1[0..2], u.d2, u.d3, the directors"},
+      {.name = "let",
+       .kind = KeyKind::texts,
+       .type = "array of texts",
+       .standard = std::vector<Value>{},
+       .description = "\"name = expression\", one after the other, for the density and the definitions that follow"},
+      text("moves", "name", described("none"),
+           "the one of the fields whose values are the places of the points: it starts at the reference position, pictures show it")};
+  return keys;
+}
+
 std::vector<std::string> key_names(const std::vector<KeyInfo>& keys) {
   std::vector<std::string> names;
   for (const KeyInfo& k : keys) names.push_back(k.name);

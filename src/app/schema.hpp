@@ -16,12 +16,14 @@ namespace karcher::app {
 
 enum class KeyKind {
   text,
-  word,  ///< one of KeyInfo::words
+  word,   ///< one of KeyInfo::words
+  texts,  ///< an array of texts
   flag,
   integer,  ///< from KeyInfo::minimum to maximum
   number,
   constant,    ///< KeyInfo::size numbers, or expressions without x, y, z and t
   expression,  ///< KeyInfo::size numbers or expressions
+  formula,     ///< an expression in which fields have values: density.hpp
   point,       ///< of a manifold: point_value.hpp
   table
 };
@@ -63,6 +65,8 @@ struct SectionInfo {
 
 const std::vector<SectionInfo>& schema();
 const SectionInfo& section_info(const std::string& name);
+/// Keys of an energy whose density is a formula.
+const std::vector<KeyInfo>& formula_keys();
 std::vector<std::string> key_names(const std::vector<KeyInfo>& keys);
 
 }  // namespace karcher::app

@@ -20,7 +20,7 @@ Expression expression_of(const Value& value, const std::string& key, const Scope
     return Expression(value.as_double());
   }
   if (!value.is(Value::Kind::text)) refuse(value.place, key + " must be a number or an expression in quotes, not " + value.kind_name() + ".");
-  return scope.compile(value.text, key, value.place.line > 0 ? value.place.shifted(1) : value.place);
+  return scope.compile(value.text, key, value.text_place());
 }
 
 Section::Section(const Value* table, std::string path, Place place, std::vector<KeyInfo> keys)
@@ -93,6 +93,24 @@ std::string Section::word(const std::string& key, const std::optional<std::strin
   const std::string s = text(key, standard);
   if (std::find(allowed.begin(), allowed.end(), s) == allowed.end()) refuse_name(place(key), path(key) + " cannot be", s, allowed);
   return s;
+}
+
+std::vector<Value> Section::texts(const std::string& key) {
+  const Value& v = value(info(key, {KeyKind::texts}));
+  note(key, v);
+  if (v.is(Value::Kind::text)) return {v};
+  if (!v.is(Value::Kind::array)) wrong_type(key, v, "a string or an array of strings");
+  for (std::size_t i = 0; i < v.items.size(); ++i)
+    if (!v.items[i].is(Value::Kind::text))
+      refuse(v.items[i].place, fmt::format("{}.{} must be a string, not {}.", path(key), i, v.items[i].kind_name()));
+  return v.items;
+}
+
+Value Section::formula(const std::string& key) {
+  const Value& v = value(info(key, {KeyKind::formula}));
+  if (!v.is(Value::Kind::text)) wrong_type(key, v, "an expression in quotes");
+  note(key, v);
+  return v;
 }
 
 bool Section::flag(const std::string& key) {

@@ -35,6 +35,10 @@ class Section {
   std::string text(const std::string& key, const std::optional<std::string>& standard = {});
   /// \param words those that have a meaning here; empty: all of the key's
   std::string word(const std::string& key, const std::optional<std::string>& standard = {}, const std::vector<std::string>& words = {});
+  /// An array of texts; a single one counts as an array of one.
+  std::vector<Value> texts(const std::string& key);
+  /// A text that somebody else compiles.
+  Value formula(const std::string& key);
   bool flag(const std::string& key);
   int integer(const std::string& key, const std::optional<int>& standard = {});
   double number(const std::string& key);

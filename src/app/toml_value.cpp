@@ -74,6 +74,12 @@ Value convert(const toml::node& node, const std::string& file) {
   } else if (const auto* s = node.as_string()) {
     v.kind = Value::Kind::text;
     v.text = s->get();
+    // Behind one quotation mark or three; a line that ends behind the three is no part of the text.
+    const toml::source_region& at = node.source();
+    const auto lines = std::count(v.text.begin(), v.text.end(), '\n');
+    const bool three = lines > 0 || at.end.column - at.begin.column == v.text.size() + 6;
+    v.text_line = static_cast<std::ptrdiff_t>(at.end.line - at.begin.line) > lines ? 1 : 0;
+    v.text_column = three ? 3 : 1;
   } else if (const auto* i = node.as_integer()) {
     v.kind = Value::Kind::integer;
     v.integer = i->get();

@@ -22,8 +22,9 @@ struct Value {
   long long integer = 0;
   double number = 0;
   std::string text;
-  std::vector<Value> items;    ///< of an array
-  std::vector<Entry> entries;  ///< of a table
+  int text_line = 0, text_column = 0;  ///< of the first character of a text, from `place`
+  std::vector<Value> items;            ///< of an array
+  std::vector<Entry> entries;          ///< of a table
 
   static Value of(bool b);
   static Value of(long long i);
@@ -36,6 +37,11 @@ struct Value {
   bool is(Kind k) const { return kind == k; }
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
   double as_double() const { return kind == Kind::integer ? static_cast<double>(integer) : number; }
+  /// Of the first character of a text.
+  Place text_place() const {
+    if (place.line == 0) return place;
+    return text_line > 0 ? Place{place.file, place.line + text_line, 1} : place.shifted(text_column);
+  }
   /// Entry of a table; null if there is none.
   const Entry* find(const std::string& key) const;
   Entry* find(const std::string& key);

@@ -34,6 +34,15 @@ const std::vector<catalogue::Entry>& entries() {
   return all;
 }
 
+const catalogue::Entry& entry(const std::string& name) {
+  std::vector<std::string> known;
+  for (const catalogue::Entry& e : entries()) {
+    known.push_back(e.info.term_name());
+    if (known.back() == name) return e;
+  }
+  throw InputError("There is no energy or load \"" + name + "\". " + suggestion(name, known));
+}
+
 std::vector<EnergyInfo> infos(bool loads) {
   std::vector<EnergyInfo> list;
   for (const catalogue::Entry& e : entries())
@@ -77,15 +86,8 @@ const std::vector<EnergyInfo>& load_catalogue() {
   return list;
 }
 
-std::unique_ptr<Term> make_term(const EnergyInfo& info, TermInput input) { return make_term(info.term_name(), std::move(input)); }
+std::unique_ptr<Term> make_term(const EnergyInfo& info, TermInput input) { return entry(info.term_name()).make(info, input); }
 
-std::unique_ptr<Term> make_term(const std::string& name, TermInput input) {
-  std::vector<std::string> known;
-  for (const catalogue::Entry& e : entries()) {
-    known.push_back(e.info.term_name());
-    if (known.back() == name) return e.make(e.info, input);
-  }
-  throw InputError("There is no energy or load \"" + name + "\". " + suggestion(name, known));
-}
+std::unique_ptr<Term> make_term(const std::string& name, TermInput input) { return make_term(entry(name).info, std::move(input)); }
 
 }  // namespace karcher

@@ -11,17 +11,22 @@
 
 namespace karcher::catalogue {
 
-/// make<M>() for the manifold M of the term's first field, one of the list.
-template <class... M, class Make>
-std::unique_ptr<Term> of_manifolds(ManifoldList<M...>, const TermInput& input, const Make& make) {
-  const Field& field = input.field(0);
-  std::unique_ptr<Term> term;
+/// make<M>() for the manifold M of the field, one of the list: a unique_ptr.
+template <class M0, class... M, class Make>
+auto of_manifolds(ManifoldList<M0, M...>, const Field& field, const Make& make) {
+  decltype(make.template operator()<M0>()) made;
   const auto attempt = [&]<class N>() {
-    if (field.manifold == &manifold_ops<N>()) term = make.template operator()<N>();
+    if (field.manifold == &manifold_ops<N>()) made = make.template operator()<N>();
   };
+  attempt.template operator()<M0>();
   (attempt.template operator()<M>(), ...);
-  if (!term) throw InputError("Field \"" + field.name + "\" has values in " + field.manifold->name + ", for which this term is not defined.");
-  return term;
+  if (!made) throw InputError("Field \"" + field.name + "\" has values in " + field.manifold->name + ", for which this term is not defined.");
+  return made;
+}
+/// Of the term's first field.
+template <class List, class Make>
+auto of_manifolds(List list, const TermInput& input, const Make& make) {
+  return of_manifolds(list, input.field(0), make);
 }
 
 }  // namespace karcher::catalogue

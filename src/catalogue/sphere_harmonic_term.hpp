@@ -94,7 +94,7 @@ class SphereHarmonicTerm : public DensityTerm<VaryingDensity<Harmonic>, D, Spher
     for (std::size_t i = 0; i < count; ++i) {
       const Mat<T, N, k>& e = state.interpolation.node_frame(i);
       const Vec<T, k> gradient = transpose_times(e, force[i]);
-      for (std::size_t c = 0; c < k; ++c) this->put(gradient[static_cast<int>(c)], i * k + c, out.gradient);
+      for (std::size_t c = 0; c < k; ++c) store_lanes(gradient[static_cast<int>(c)], i * k + c, out.gradient);
       const T inward = dot(state.nodes[i], force[i]);
       for (std::size_t j = i; j < count; ++j) {
         Matrix m = sum[i * count + j];
@@ -102,10 +102,10 @@ class SphereHarmonicTerm : public DensityTerm<VaryingDensity<Harmonic>, D, Spher
         for (int c = 0; c < N; ++c) m(c, c) += on_diagonal;
         const Mat<T, k, k> h = transpose_times(e, m * state.interpolation.node_frame(j));
         for (std::size_t x = 0; x < k; ++x)
-          for (std::size_t y = 0; y < k; ++y) this->put(h(static_cast<int>(x), static_cast<int>(y)), (i * k + x) * n + j * k + y, out.hessian);
+          for (std::size_t y = 0; y < k; ++y) store_lanes(h(static_cast<int>(x), static_cast<int>(y)), (i * k + x) * n + j * k + y, out.hessian);
       }
     }
-    this->report(energy, defined, out);
+    report_lanes(energy, defined, out);
   }
 };
 

@@ -40,13 +40,18 @@ std::uint32_t Symbols::add_variable(const std::string& name) {
   return add({name, Kind::variable, variables_++, 0, nullptr});
 }
 
+std::uint32_t Symbols::add_hidden_variable() {
+  symbols_.push_back({{}, Kind::variable, variables_++, 0, nullptr});
+  return static_cast<std::uint32_t>(symbols_.size()) - 1;
+}
+
 std::uint32_t Symbols::define(const std::string& name, double constant) {
   check(name, is_name(name));
   return add({name, Kind::constant, 0, constant, nullptr});
 }
 
 std::uint32_t Symbols::define(const std::string& name, Formula formula) {
-  check(name, is_name(name));
+  check(name, is_one_name(name));
   return add({name, Kind::definition, 0, 0, std::make_shared<const Formula>(std::move(formula))});
 }
 
@@ -61,7 +66,8 @@ bool Symbols::is_taken(std::string_view name) const { return find(name) || find_
 
 std::vector<std::string> Symbols::names() const {
   std::vector<std::string> all;
-  for (const Symbol& s : symbols_) all.push_back(s.name);
+  for (const Symbol& s : symbols_)
+    if (!s.name.empty()) all.push_back(s.name);
   return all;
 }
 

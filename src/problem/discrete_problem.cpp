@@ -260,7 +260,10 @@ void require_energy(const Problem& problem, const DiscreteProblem& model) {
   const Configuration& u = model.discretisation.start;
   together([&] {
     model.functional->set_load_parameter(u.t);
-    const Evaluation e = model.functional->energy(u);
+    // Formulas may have infinite slopes where they are finite.
+    std::vector<double> g(static_cast<std::size_t>(model.layout->local_dofs()));
+    const bool formulas = std::any_of(problem.terms.begin(), problem.terms.end(), [](const TermSpec& t) { return t.info.formula; });
+    const Evaluation e = formulas ? model.functional->gradient(u, g) : model.functional->energy(u);
     if (e.failure)
       refuse(problem.terms[static_cast<std::size_t>(e.failure->index)].place,
              "the energy of the initial configuration is not defined: " + e.failure->sentence());

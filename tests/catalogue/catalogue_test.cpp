@@ -24,8 +24,8 @@ TEST(Catalogue, ListsEveryEntryOnceAndLoadsApart) {
     EXPECT_EQ(info.term_name(), info.type);
     names.push_back(info.type);
   }
-  for (const char* type :
-       {"chiral-skyrmion", "cosserat-plate", "cosserat-rod", "cosserat-shell", "frank-oseen", "harmonic", "l2-distance", "reissner-mindlin"})
+  for (const char* type : {"chiral-skyrmion", "cosserat-plate", "cosserat-rod", "cosserat-shell", "expression", "frank-oseen", "harmonic",
+                           "l2-distance", "reissner-mindlin"})
     EXPECT_EQ(std::count(names.begin(), names.end(), type), 1) << type;
   std::vector<std::string> loads;
   for (const EnergyInfo& info : load_catalogue()) {

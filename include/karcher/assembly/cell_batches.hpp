@@ -55,6 +55,7 @@ class CellBatches {
   const Batch& batch(int b) const { return batches_[static_cast<std::size_t>(b)]; }
   const KindData& kind(int b) const { return kinds_[static_cast<std::size_t>(kind_[static_cast<std::size_t>(b)])]; }
   const BatchPoint& point(int b, int q) const { return points_[first_point_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(q)]; }
+  const BatchReference& reference(int b, int q) const { return references_[point_index(b, q)]; }
   template <int D>
   ReferencePoint<D, NativeScalar> reference(int b, int q) const {
     const BatchReference& from = references_[point_index(b, q)];

@@ -22,6 +22,8 @@
 #include "karcher/assembly/body_strain_derivatives.hpp"
 #include "karcher/assembly/cell_batches.hpp"
 #include "karcher/assembly/director_strain_derivatives.hpp"
+#include "karcher/assembly/field_state.hpp"
+#include "karcher/assembly/point_parameters.hpp"
 #include "karcher/interpolation/interpolation.hpp"
 
 namespace karcher {
@@ -90,6 +92,15 @@ struct VaryingDensity {
   }
 };
 
+/// The quadrature degree of densities where nothing else is said: twice the highest order p of the fields plus one, which is exact for the squared gradient of
+/// polynomials on affine cells and a little more; on curves and surfaces plus four, since the interpolation is not polynomial (measured for harmonic maps into S^2:
+/// 1e-7 relative of the energy for Q1, 1e-11 for Q2).
+inline int density_degree(const TermInput& input, CellKind kind) {
+  int order = 1;
+  for (const int f : input.fields) order = std::max(order, input.all_fields[static_cast<std::size_t>(f)].space->order());
+  return 2 * order + (dimension(kind) == 3 ? 1 : 4);
+}
+
 template <class Model, int D, class... Interpolation>
 class DensityTerm : public Term {
   using T = NativeScalar;
@@ -119,31 +130,21 @@ class DensityTerm : public Term {
         model_(std::move(model)),
         fields_(input.fields),
         batches_(
-            input, [&](CellKind kind) { return default_degree(input, kind); }, placed) {
+            input, [&](CellKind kind) { return density_degree(input, kind); }, placed),
+        parameters_(batches_, input.of(parameter_keys), input.t) {
     if constexpr (requires { DensityAtPoint::quantity_infos(); }) {
       info_.quantities = DensityAtPoint::quantity_infos();
       std::size_t components = 0;
       for (const QuantityInfo& q : info_.quantities) components += static_cast<std::size_t>(q.components);
       assert(components == std::tuple_size_v<Quantities> && "quantity_infos() describes all components that quantities() gives, and no other");
     }
-    for (const auto& key : parameter_keys) parameters_.push_back(input.parameters.at(key));
-    values_.resize(batches_.point_count() * parameters_.size());
-    compute_parameters(input.t, true);
-  }
-
-  /// Twice the highest order p of the fields plus one, which is exact for the squared gradient of polynomials on affine cells and a little more; on curves and
-  /// surfaces plus four, since the interpolation is not polynomial (measured for harmonic maps into S^2: 1e-7 relative of the energy for Q1, 1e-11 for Q2).
-  static int default_degree(const TermInput& input, CellKind kind) {
-    int order = 1;
-    for (int f : input.fields) order = std::max(order, input.all_fields[static_cast<std::size_t>(f)].space->order());
-    return 2 * order + (dimension(kind) == 3 ? 1 : 4);
   }
 
   const TermInfo& info() const override { return info_; }
   int batch_count() const override { return batches_.count(); }
   const Batch& batch(int b) const override { return batches_.batch(b); }
   const Cell& cell(int c) const override { return batches_.cell(c); }
-  void set_load_parameter(double t) override { compute_parameters(t, false); }
+  void set_load_parameter(double t) override { parameters_.set_load_parameter(batches_, t); }
 
   void evaluate(const Configuration& u, int b, Want want, BatchResult& out) const override {
     evaluate_impl(u, b, want, out, std::make_index_sequence<F>{});
@@ -174,82 +175,20 @@ class DensityTerm : public Term {
   const CellBatches& batches() const { return batches_; }
   const std::vector<int>& fields() const { return fields_; }
   /// Parameter p at a quadrature point, for models whose data are not expressions.
-  T& parameter(int b, int q, std::size_t p) { return values_[batches_.point_index(b, q) * parameters_.size() + p]; }
+  T& parameter(int b, int q, std::size_t p) { return parameters_.at(batches_.point_index(b, q))[p]; }
 
-  /// Nodal values, weights and interpolation of all fields of a batch, moved from point to point.
-  template <class I>
-  struct FieldState {
-    using FM = typename I::Manifold;
-    I interpolation;
-    std::vector<Point<FM, T>> nodes;
-    std::vector<std::array<T, D>> dl;
-    Weights<D, T> weights;
-    std::vector<Mat<T, local_dim<FM, D>, FM::dim>> maps;
-  };
-  using States = std::tuple<FieldState<Interpolation>...>;
+  using States = std::tuple<FieldState<Interpolation, D>...>;
 
   template <std::size_t f>
   MaskOf<T> gather(const Configuration& u, int b, States& states) const {
-    auto& state = std::get<f>(states);
-    const Batch& batch = batches_.batch(b);
-    const KindData& kind = batches_.kind(b);
-    const auto count = static_cast<std::size_t>(kind.shapes[f].nodes);
-    state.nodes.resize(count);
-    state.dl.resize(count);
-    state.maps.resize(count);
-    for (std::size_t n = 0; n < count; ++n)
-      for (int lane = 0; lane < W; ++lane) {
-        const int node = batch.nodes[(static_cast<std::size_t>(kind.first_block[f]) + n) * W + static_cast<std::size_t>(lane)];
-        const double* x = u.at(fields_[f], node, M<f>::ambient);
-        for (int c = 0; c < M<f>::ambient; ++c) set_lane(state.nodes[n][c], lane, x[c]);
-      }
-    return state.interpolation.begin_cell(state.nodes.data(), static_cast<int>(count));
+    return std::get<f>(states).gather(u, fields_[f], batches_.batch(b), batches_.kind(b), f);
   }
-
   template <std::size_t f>
   MaskOf<T> move_to(int b, int q, States& states) const {
-    auto& state = std::get<f>(states);
-    const KindData& kind = batches_.kind(b);
-    const ShapeTable& shape = kind.shapes[f];
-    const auto first = static_cast<std::size_t>(q) * static_cast<std::size_t>(shape.nodes);
-    const int cell_dim = dimension(kind.kind);
-    if constexpr (D > 0) {
-      const BatchPoint& point = batches_.point(b, q);
-      for (std::size_t n = 0; n < static_cast<std::size_t>(shape.nodes); ++n)
-        for (std::size_t a = 0; a < D; ++a) {
-          T s = T(0.0);
-          for (std::size_t c = 0; c < static_cast<std::size_t>(cell_dim); ++c) s += point.to_frame[a][c] * T(shape.gradient[first + n][c]);
-          state.dl[n][a] = s;
-        }
-    }
-    state.weights = {shape.nodes, shape.value.data() + first, state.dl.data()};
-    return state.interpolation.evaluate(state.nodes.data(), state.weights);
+    return std::get<f>(states).move_to(batches_.point(b, q), batches_.kind(b), f, q);
   }
 
-  /// All lanes of an entry.
-  template <class P>
-  static void put(const P& x, std::size_t entry, AlignedVector<double>& to) {
-    if constexpr (lanes<P> == 1)
-      to[entry] = x;
-    else
-      x.store(to.data() + entry * W);
-  }
-
-  static void report(const T& energy, const MaskOf<T>& defined, BatchResult& out) {
-    for (int lane = 0; lane < W; ++lane) {
-      const auto l = static_cast<std::size_t>(lane);
-      out.energy[l] = karcher::lane(energy, lane);
-      const bool lane_defined = karcher::lane(select(defined, T(1.0), T(0.0)), lane) > 0;
-      out.trouble[l] = !lane_defined               ? Trouble::undefined_interpolation
-                       : std::isinf(out.energy[l]) ? Trouble::infinite_energy
-                       : std::isnan(out.energy[l]) ? Trouble::not_finite
-                                                   : Trouble::none;
-    }
-  }
-
-  auto density(int b, int q) const {
-    return model_.template at<T>(std::span<const T>(values_.data() + batches_.point_index(b, q) * parameters_.size(), parameters_.size()));
-  }
+  auto density(int b, int q) const { return model_.template at<T>(parameters_.at(batches_.point_index(b, q))); }
 
   /// W as a function of the local coordinates of all fields.
   template <class S, class Density, std::size_t... f>
@@ -308,7 +247,7 @@ class DensityTerm : public Term {
         energy += weight * density_detail::value(rho, reference, std::get<f>(states).interpolation.jet()...);
         continue;
       }
-      (linearize<f>(states), ...);
+      (std::get<f>(states).linearize(), ...);
       Vec<T, L> covector;
       if (want == Want::gradient) {
         const auto w = density_at<Dual<T, L>>(rho, reference, states, all);
@@ -327,9 +266,9 @@ class DensityTerm : public Term {
     }
     if (want == Want::hessian) (add_blocks<f>(kind, begin, std::get<f>(second), hessian), ...);
 
-    report(energy, defined, out);
-    store(gradient, out.gradient);
-    store(hessian, out.hessian);
+    report_lanes(energy, defined, out);
+    store_lanes(gradient, out.gradient);
+    store_lanes(hessian, out.hessian);
   }
 
   /// Integrals over the cells of batch b of what numbers(density, reference, jets...) gives at a point, an array; lanes where everything is defined.
@@ -350,19 +289,6 @@ class DensityTerm : public Term {
   }
 
  private:
-  void compute_parameters(double t, bool all) {
-    for (std::size_t p = 0; p < parameters_.size(); ++p) {
-      if (!all && !parameters_[p].depends_on_t) continue;
-      for (int b = 0; b < batch_count(); ++b)
-        for (int q = 0; q < batches_.kind(b).quadrature->size(); ++q)
-          for (int lane = 0; lane < W; ++lane) {
-            Vec3<double> x;
-            for (int c = 0; c < 3; ++c) x[c] = karcher::lane(batches_.point(b, q).x[c], lane);
-            set_lane(values_[batches_.point_index(b, q) * parameters_.size() + p], lane, parameters_[p](x, t));
-          }
-    }
-  }
-
   std::array<std::size_t, F> unknowns_begin(const KindData& kind) const {
     std::array<std::size_t, F> begin{};
     std::size_t next = 0;
@@ -379,57 +305,13 @@ class DensityTerm : public Term {
     return mine;
   }
 
-  // The maps A_i of R^n are multiples of the identity, l_i I and l_{i,a} I one above the other, and not made.
-  template <std::size_t f>
-  static void linearize(States& states) {
-    if constexpr (!is_linear<M<f>>) std::get<f>(states).interpolation.linearize(std::get<f>(states).nodes.data(), std::get<f>(states).maps);
-  }
-  /// c A_i of field f.
-  template <std::size_t f, int R>
-  static Mat<T, R, M<f>::dim> times_map(const Mat<T, R, local[f]>& c, const States& states, std::size_t i) {
-    const auto& state = std::get<f>(states);
-    if constexpr (!is_linear<M<f>>) {
-      return c * state.maps[i];
-    } else {
-      constexpr int k = M<f>::dim;
-      Mat<T, R, k> r;
-      for (int row = 0; row < R; ++row)
-        for (int x = 0; x < k; ++x) {
-          T sum = T(state.weights.l[i]) * c(row, x);
-          for (int a = 0; a < D; ++a) sum += state.weights.dl[i][static_cast<std::size_t>(a)] * c(row, (1 + a) * k + x);
-          r(row, x) = sum;
-        }
-      return r;
-    }
-  }
-  /// A_i^T c of field f.
-  template <std::size_t f, int C>
-  static Mat<T, M<f>::dim, C> transposed_map_times(const States& states, std::size_t i, const Mat<T, local[f], C>& c) {
-    const auto& state = std::get<f>(states);
-    if constexpr (!is_linear<M<f>>) {
-      return transpose_times(state.maps[i], c);
-    } else {
-      constexpr int k = M<f>::dim;
-      Mat<T, k, C> r;
-      for (int x = 0; x < k; ++x)
-        for (int column = 0; column < C; ++column) {
-          T sum = T(state.weights.l[i]) * c(x, column);
-          for (int a = 0; a < D; ++a) sum += state.weights.dl[i][static_cast<std::size_t>(a)] * c((1 + a) * k + x, column);
-          r(x, column) = sum;
-        }
-      return r;
-    }
-  }
-
   template <std::size_t f>
   static void add_gradient(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Vec<T, L>& covector,
                            std::vector<T>& gradient) {
     constexpr auto k = static_cast<std::size_t>(M<f>::dim);
     for (std::size_t i = 0; i < static_cast<std::size_t>(kind.shapes[f].nodes); ++i) {
-      Mat<T, local[f], 1> mine;
-      mine.e = part<f>(covector).e;
-      const auto g = transposed_map_times<f>(states, i, mine);
-      for (std::size_t c = 0; c < k; ++c) gradient[begin[f] + i * k + c] += g(static_cast<int>(c), 0);
+      const auto g = std::get<f>(states).gradient(i, part<f>(covector));
+      for (std::size_t c = 0; c < k; ++c) gradient[begin[f] + i * k + c] += g[static_cast<int>(c)];
     }
   }
 
@@ -450,9 +332,9 @@ class DensityTerm : public Term {
       for (int i = 0; i < local[f]; ++i)
         for (int j = 0; j < local[g]; ++j) c(i, j) = w.hessian(offset(f) + i, offset(g) + j);
       for (std::size_t j = 0; j < columns; ++j) {
-        const auto ca = times_map<g>(c, states, j);
+        const auto ca = std::get<g>(states).times_map(c, j);
         for (std::size_t i = 0; i < (f == g ? j + 1 : rows); ++i) {
-          const auto block = transposed_map_times<f>(states, i, ca);
+          const auto block = std::get<f>(states).transposed_map_times(i, ca);
           T* to = hessian.data() + (begin[f] + i * kf) * n + begin[g] + j * kg;
           for (std::size_t r = 0; r < kf; ++r)
             for (std::size_t s = 0; s < kg; ++s) to[r * n + s] += block(static_cast<int>(r), static_cast<int>(s));
@@ -472,16 +354,11 @@ class DensityTerm : public Term {
             hessian[(begin[f] + i * k + r) * n + begin[f] + j * k + s] += blocks[i * nodes + j](static_cast<int>(r), static_cast<int>(s));
   }
 
-  static void store(const std::vector<T>& from, AlignedVector<double>& to) {
-    for (std::size_t i = 0; i < from.size(); ++i) put(from[i], i, to);
-  }
-
   TermInfo info_;
   Model model_;
   std::vector<int> fields_;
   CellBatches batches_;
-  std::vector<ParameterValue> parameters_;
-  std::vector<T> values_;  // [point][parameter]
+  PointParameters parameters_;
 };
 
 }  // namespace karcher

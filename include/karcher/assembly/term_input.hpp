@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "karcher/assembly/density_formula.hpp"
 #include "karcher/energy/parameter.hpp"
 #include "karcher/field/field.hpp"
 
@@ -19,7 +20,8 @@ struct TermInput {
   std::vector<int> fields;        ///< index into all_fields for each FieldSlot of the energy, in its order
   ParameterValues parameters;     ///< defaults filled in; mu and lambda always, never young and poisson
   std::map<std::string, std::string> choices;
-  std::map<CellKind, int> quadrature_degree;  ///< empty entry: the energy's documented default
+  std::shared_ptr<const DensityFormula> formula;  ///< of energies whose density is one
+  std::map<CellKind, int> quadrature_degree;      ///< empty entry: the energy's documented default
   /// Stress-free configuration, if it is not the mesh: position as function of the mesh point, and Lagrange order of its interpolant.
   std::function<Vec3<double>(const Vec3<double>&)> reference_position;
   int reference_order = 2;
@@ -28,6 +30,12 @@ struct TermInput {
   std::shared_ptr<const Configuration> initial;
 
   const Field& field(std::size_t slot) const { return all_fields[static_cast<std::size_t>(fields[slot])]; }
+  /// The parameters with these keys, in their order.
+  std::vector<ParameterValue> of(const std::vector<std::string>& keys) const {
+    std::vector<ParameterValue> list;
+    for (const std::string& key : keys) list.push_back(parameters.at(key));
+    return list;
+  }
   /// `initial` with values of all fields.
   Configuration start() const {
     Configuration u = initial ? *initial : Configuration{};

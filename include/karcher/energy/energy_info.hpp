@@ -77,6 +77,7 @@ struct EnergyInfo {
   std::vector<Choice> choices;
   std::vector<std::string> parts;  ///< of the energy, where the density can tell them apart
   bool lame = false;               ///< mu and lambda may be given as young and poisson instead (the reader converts)
+  bool formula = false;            ///< the density is a formula of any fields, of which `fields` says nothing
   bool load = false;               ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
   /// Vanishes in the stress-free configuration: where a field that moves is the reference position and the others are what Term::stress_free says.
   bool stress_free = false;

@@ -65,6 +65,8 @@ class Program {
   }
 
   std::size_t size() const { return places_; }
+  /// The place of the result.
+  std::uint32_t result() const { return result_; }
   /// The variables that are named, also through definitions, in increasing order.
   const std::vector<std::uint32_t>& inputs() const { return inputs_; }
   /// The definitions that are needed; each uses earlier ones only.

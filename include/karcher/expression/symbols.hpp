@@ -45,6 +45,8 @@ class Symbols {
 
   /// Variables may have names like u[0], u.k1 and u[0].x. The numbers of new symbols are returned. \throws InputError if the name is no name or is taken
   std::uint32_t add_variable(const std::string& name);
+  /// A variable that only definitions made by code can name.
+  std::uint32_t add_hidden_variable();
   std::uint32_t define(const std::string& name, double constant);
   std::uint32_t define(const std::string& name, Formula formula);
 

@@ -47,6 +47,8 @@ PetscSession::PetscSession(const std::string& options) {
   char** arguments = words;
   // One process needs no daemon beside it, which Open MPI would start, and could not without a PATH.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Nor does it need a directory under /tmp: of two processes, the one that ends can remove the parent of the one that the other is making, which then ends with exit code 1.
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK")) setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   if (PetscInitialize(&count, &arguments, nullptr, nullptr)) throw Error("PETSc did not start.");
   session_running = true;
   check_petsc(PetscPushErrorHandler(keep_message, nullptr));

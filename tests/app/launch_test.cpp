@@ -92,6 +92,17 @@ TEST(Launch, ATemporaryDirectoryThatIsMissingIsNamedByItsVariable) {
       "TMPDIR.\n");
 }
 
+TEST(Launch, OneRankMakesNothingInTheTemporaryDirectoryThatAnotherRunCouldRemove) {
+  const Workshop shop;
+  shop.write("strip.toml", strip);
+  const std::filesystem::path temporary = shop.directory() / "tmp";
+  std::filesystem::create_directory(temporary);
+  const auto long_ago = std::filesystem::last_write_time(temporary) - std::chrono::hours(1);
+  std::filesystem::last_write_time(temporary, long_ago);
+  EXPECT_EQ(shop.karcher("evaluate strip.toml", "TMPDIR=" + temporary.string()).code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(temporary), long_ago);
+}
+
 TEST(Launch, AnotherNumberOfRanksThanTheLaunchersIsTold) {
   const Workshop shop;
   shop.write("strip.toml", strip);

@@ -116,6 +116,8 @@ void read_parameter(Section& s, const Parameter& p, const TermSpec& spec, const 
   const Place place = s.place(p.name);
   if (p.size == 1) {
     const Expression e = s.expression(p.name, problem.scope);
+    if (p.uniform && e.uses_point())
+      refuse(place, s.path(p.name) + " must be the same everywhere: an expression of t and parameters, without x, y and z.");
     parameters[p.name] = in_range(e, p, s.path(p.name), place);
     return;
   }

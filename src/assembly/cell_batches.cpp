@@ -43,6 +43,7 @@ Orientation orientation_of(const TermInput& input) {
 void set_reference(BatchReference& r, int lane, const GeometryJet& jet, const CellFrame& frame, int dim, int sign) {
   set_lane(r.x, lane, jet.x);
   for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) set_lane(r.tangent[a], lane, frame.t[a]);
+  if (dim == 1) set_lane(r.normal, lane, static_cast<double>(sign) * cross(frame.t[0], Vec3<double>{{0, 0, 1}}));
   if (dim != 2) return;
   const Vec3<double> own = cross(jet.d[0], jet.d[1]), normal = (sign / std::sqrt(norm2(own))) * own;
   set_lane(r.normal, lane, normal);
@@ -64,7 +65,7 @@ CellBatches::CellBatches(const TermInput& input, const std::function<int(CellKin
   kinds_.reserve(by_kind.size());
   const ReferenceGeometry reference(*input.mesh, input.reference_position, input.reference_order);
   std::optional<Orientation> orientation;
-  if (with_reference && region_.dim == 2) {
+  if (with_reference && (region_.dim == 2 || (region_.dim == 1 && input.mesh->dim == 2))) {
     orientation.emplace(orientation_of(input));
     oriented_ = orientation->exists();
   }

@@ -15,23 +15,34 @@ std::vector<int> key_of(const Cell& cell) {
   return key;
 }
 
-/// Own normal of the polygon of the vertices, of any length.
+/// Own normal of the polygon, or the line, of the vertices, of any length.
 Vec3<double> own_normal(const Mesh& mesh, const Cell& cell) {
   const auto x = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(cell.nodes[i])]; };
+  if (cell.kind == CellKind::line) return cross(x(1) - x(0), Vec3<double>{{0, 0, 1}});
   return cell.kind == CellKind::triangle ? cross(x(1) - x(0), x(2) - x(0)) : cross(x(2) - x(0), x(3) - x(1));
 }
 
-/// A way through an edge: the cell, and whether from the smaller vertex to the larger.
+/// A way through an edge: the cell, and whether from the smaller vertex to the larger; of a line through an end: whether it ends there.
 struct Passage {
   std::size_t cell;
   bool upwards;
 };
 
+/// The facets of a cell in the order of facets(), as keys, with the senses in which the cell runs through them.
+std::vector<std::pair<std::array<int, 2>, bool>> passages_of(const Cell& cell) {
+  const auto node = [&](int i) { return cell.nodes[static_cast<std::size_t>(i)]; };
+  if (cell.kind == CellKind::line) return {{{node(0), node(0)}, false}, {{node(1), node(1)}, true}};
+  std::vector<std::pair<std::array<int, 2>, bool>> list;
+  for (const auto& e : edges(cell.kind))
+    list.push_back({{std::min(node(e[0]), node(e[1])), std::max(node(e[0]), node(e[1]))}, node(e[0]) < node(e[1])});
+  return list;
+}
+
 }  // namespace
 
 Orientation::Orientation(const Mesh& mesh, const Region& region) {
   const std::vector<Cell>& cells = region.cells;
-  if (mesh.dim == 3) {  // outwards, if every cell is a face of one solid cell
+  if (mesh.dim == region.dim + 1) {  // outwards, if every cell is a facet of one cell of the mesh
     const VertexCells around(mesh);
     bool boundary = true;
     std::map<std::vector<int>, int> outwards;
@@ -51,10 +62,7 @@ Orientation::Orientation(const Mesh& mesh, const Region& region) {
 
   std::map<std::array<int, 2>, std::vector<Passage>> passages;
   for (std::size_t c = 0; c < cells.size(); ++c)
-    for (const auto& e : edges(cells[c].kind)) {
-      const int a = cells[c].nodes[static_cast<std::size_t>(e[0])], b = cells[c].nodes[static_cast<std::size_t>(e[1])];
-      passages[{std::min(a, b), std::max(a, b)}].push_back({c, a < b});
-    }
+    for (const auto& [facet, upwards] : passages_of(cells[c])) passages[facet].push_back({c, upwards});
   std::vector<int> sign(cells.size(), 0);
   for (std::size_t first = 0; first < cells.size(); ++first) {
     if (sign[first] != 0) continue;
@@ -63,13 +71,12 @@ Orientation::Orientation(const Mesh& mesh, const Region& region) {
     while (!todo.empty()) {
       const std::size_t c = todo.back();
       todo.pop_back();
-      for (const auto& e : edges(cells[c].kind)) {
-        const int a = cells[c].nodes[static_cast<std::size_t>(e[0])], b = cells[c].nodes[static_cast<std::size_t>(e[1])];
-        const std::vector<Passage>& through = passages[{std::min(a, b), std::max(a, b)}];
+      for (const auto& [facet, upwards] : passages_of(cells[c])) {
+        const std::vector<Passage>& through = passages[facet];
         if (through.size() > 2) exists_ = false;
         for (const Passage& other : through) {
           if (other.cell == c) continue;
-          const int wanted = other.upwards == (a < b) ? -sign[c] : sign[c];
+          const int wanted = other.upwards == upwards ? -sign[c] : sign[c];
           if (sign[other.cell] == 0) {
             sign[other.cell] = wanted;
             todo.push_back(other.cell);

@@ -11,6 +11,7 @@
 #include "karcher/mesh/reference_geometry.hpp"
 #include "karcher/mesh/refine.hpp"
 #include "karcher/mesh/seams.hpp"
+#include "karcher/problem/enclosure.hpp"
 #include "karcher/problem/mesh_points.hpp"
 #include "karcher/problem/probes.hpp"
 #include "karcher/problem/reference_energy.hpp"
@@ -102,7 +103,7 @@ void require_periodic(const Problem& problem, int f, const Space& space, const s
 }
 
 std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, const ReferenceSpec& stress_free, const Discretisation& d,
-                                 const std::shared_ptr<const Configuration>& initial, const Layout& layout) {
+                                 const std::shared_ptr<const Configuration>& initial, const Layout& layout, std::vector<std::string>& warnings) {
   const Region& whole = d.mesh->region(spec.on);
   TermInput input;
   input.mesh = d.mesh;
@@ -113,6 +114,14 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.all_fields = d.fields;
   input.fields = spec.fields;
   input.parameters = spec.parameters;
+  if (spec.info.enclosure) {
+    const Enclosure e = enclosure(problem, spec, d);
+    for (int i = 0; i < 3; ++i) {
+      input.parameters[fmt::format("share[{}]", i)] = e.share[i];
+      input.parameters[fmt::format("origin[{}]", i)] = e.origin[i];
+    }
+    if (!e.warning.empty()) warnings.push_back(spec.place.text() + ": " + e.warning);
+  }
   input.choices = spec.choices;
   input.quadrature_degree = problem.quadrature;
   input.reference_position = stress_free.position;
@@ -240,7 +249,7 @@ DiscreteProblem build(const Problem& problem, std::shared_ptr<const Mesh> mesh) 
     const ReferenceSpec stress_free = reference(problem, *m.discretisation.mesh);
     const auto initial = std::make_shared<const Configuration>(m.discretisation.initial);
     for (const TermSpec& spec : problem.terms) {
-      terms.push_back(build_term(problem, spec, stress_free, m.discretisation, initial, *m.layout));
+      terms.push_back(build_term(problem, spec, stress_free, m.discretisation, initial, *m.layout, m.warnings));
       names.push_back(terms.back()->name());
       for (const std::string& warning : terms.back()->warnings()) m.warnings.push_back(spec.place.text() + ": " + warning);
     }

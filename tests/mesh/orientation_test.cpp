@@ -71,5 +71,22 @@ TEST(Orientation, PointsOutOfASolidWhateverTheOrderOfTheVertices) {
   }
 }
 
+TEST(Orientation, OfCurvesInThePlanePointsOutAndFollowsTheFirstLineElsewhere) {
+  const Mesh mesh = mesh_of("disc", {{"cells", {2}}, {"order", {1}}}, "quadrilateral");
+  Region boundary{"rim", 1, boundary_facets(mesh)};
+  for (std::size_t c = 0; c < boundary.cells.size(); c += 3) std::swap(boundary.cells[c].nodes[0], boundary.cells[c].nodes[1]);
+  const Orientation outwards(mesh, boundary);
+  for (const Cell& cell : boundary.cells) {
+    const Vec3<double>&a = mesh.nodes[static_cast<std::size_t>(cell.nodes[0])], &b = mesh.nodes[static_cast<std::size_t>(cell.nodes[1])];
+    EXPECT_GT(outwards.sign(cell) * dot(cross(b - a, Vec3<double>{{0, 0, 1}}), a + b), 0);
+  }
+  const Mesh line = mesh_of("interval", {{"cells", {4}}, {"order", {1}}});
+  Region turned = line.region("all");
+  std::swap(turned.cells[2].nodes[0], turned.cells[2].nodes[1]);
+  const Orientation one_way(line, turned);
+  ASSERT_TRUE(one_way.exists());
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(one_way.sign(turned.cells[c]), c == 2 ? -1 : 1);
+}
+
 }  // namespace
 }  // namespace karcher

@@ -62,11 +62,11 @@ class CellBatches {
     ReferencePoint<D, NativeScalar> s;
     s.x = from.x;
     for (std::size_t a = 0; a < D; ++a) s.tangent[a] = from.tangent[a];
-    if constexpr (D == 2) {
+    if constexpr (D == 1 || D == 2) {
       s.normal = from.normal;
-      s.b = from.b;
       s.oriented = oriented_;
     }
+    if constexpr (D == 2) s.b = from.b;
     return s;
   }
   std::size_t point_index(int b, int q) const { return first_point_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(q); }

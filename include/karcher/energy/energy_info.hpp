@@ -81,6 +81,8 @@ struct EnergyInfo {
   bool load = false;               ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
   /// Vanishes in the stress-free configuration: where a field that moves is the reference position and the others are what Term::stress_free says.
   bool stress_free = false;
+  /// A potential of the volume that a region encloses: a problem adds the parameters share[i] and origin[i] that make it one (problem/enclosure.hpp).
+  bool enclosure = false;
 
   std::string term_name() const { return load ? type + "-load" : type; }
 };

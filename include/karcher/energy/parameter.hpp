@@ -49,6 +49,7 @@ struct Parameter {
   bool minimum_allowed = true;      ///< false: must be greater than minimum
   int size = 1;                     ///< Parameter::ambient: as many as the first field has ambient coordinates
   bool point = false;               ///< the numbers are a point of the first field's manifold, written like an initial value
+  bool uniform = false;             ///< the same everywhere: no function of the place
   std::optional<Condition> only{};  ///< there is no such parameter where this does not hold
   static constexpr int ambient = -1;
 };

@@ -9,6 +9,7 @@
 ///   s.normal      unit normal n_0, the same side on neighbouring cells if s.oriented (outwards on the boundary of a solid); else the cell's own
 ///   s.b           second fundamental tensor in the directions t_a: b_ab = n_0 . d_a d_b x = -d_a n_0 . t_b (a sphere of radius r with the outward normal: -1/r)
 ///   s.oriented    whether there is such a choice of n_0: not on a Moebius strip
+/// Curves of a plane mesh have s.normal in the plane, and s.oriented.
 /// The basis (t_1, t_2, n_0) need not be right-handed. Derivatives in space of a field u on a surface are those of its constant continuation along the normal:
 /// grad u = sum_a d_a u (x) t_a, div u = sum_a t_a . d_a u, curl u = sum_a t_a x d_a u.
 
@@ -23,6 +24,15 @@ template <int D, class T>
 struct ReferencePoint {
   Vec3<T> x;
   std::array<Vec3<T>, static_cast<std::size_t>(D)> tangent{};
+  const T& operator[](int i) const { return x[i]; }
+};
+
+template <class T>
+struct ReferencePoint<1, T> {
+  Vec3<T> x;
+  std::array<Vec3<T>, 1> tangent{};
+  Vec3<T> normal;
+  bool oriented = true;
   const T& operator[](int i) const { return x[i]; }
 };
 

@@ -2,36 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "catalogue/density_terms.hpp"
+#include "catalogue/flat_reference.hpp"
 #include "catalogue/shell_quadrature.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rotation.hpp"
-#include "karcher/mesh/reference_cell.hpp"
-#include "karcher/mesh/reference_geometry.hpp"
 
 namespace karcher::catalogue {
 namespace {
-
-/// \throws InputError for a reference off the plane z = 0
-void require_flat(const TermInput& input) {
-  constexpr double rounding = 1e-9;  // |z| <= rounding * largest |x|
-  const ReferenceGeometry reference(*input.mesh, input.reference_position, input.reference_order);
-  double size = 0;
-  Vec3<double> farthest;
-  for (const Cell& cell : input.region.cells)
-    for (const GeometryJet& jet : reference.at(cell, lagrange_nodes(cell.kind, 3))) {
-      size = std::max(size, std::sqrt(norm2(jet.x)));
-      if (std::fabs(jet.x[2]) > std::fabs(farthest[2])) farthest = jet.x;
-    }
-  if (std::fabs(farthest[2]) > rounding * size)
-    throw InputError(
-        fmt::format("cosserat-plate: the stress-free configuration must lie in the plane z = 0, but has the point ({:.6g}, {:.6g}, {:.6g}); "
-                    "cosserat-shell takes any surface.",
-                    farthest[0], farthest[1], farthest[2]));
-}
 
 /// lambda, which is refused where it is negative: the energy would have no lower bound for det U -> 0.
 ParameterValue bounded(ParameterValue lambda) {
@@ -47,7 +25,7 @@ ParameterValue bounded(ParameterValue lambda) {
 }
 
 std::unique_ptr<Term> make_plate(const EnergyInfo& info, const TermInput& given) {
-  require_flat(given);
+  require_flat(given, info.type, "cosserat-shell takes any surface");
   TermInput input = given;
   choose_shell_quadrature(input);
   input.parameters.at("lambda") = bounded(input.parameters.at("lambda"));

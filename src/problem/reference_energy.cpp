@@ -57,7 +57,7 @@ void measure_reference(const Problem& problem, DiscreteProblem& model) {
   model.reference_energies.assign(problem.terms.size(), std::nullopt);
   for (std::size_t t = 0; t < problem.terms.size(); ++t) {
     const TermSpec& spec = problem.terms[t];
-    if (!spec.info.stress_free) continue;
+    if (!spec.info.stress_free || (spec.info.constant && spec.info.constant->holds(spec.choices))) continue;
     const Term& term = *model.functional->terms()[t];
     std::vector<double> sums;
     for (const double size : {1.0, 1.0 + stretch}) sums.push_back(energy_of(term, at_reference(problem, model, t, size)));

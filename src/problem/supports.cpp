@@ -150,7 +150,7 @@ class Body {
           if ((*batch.blocks)[k].field != field_) continue;
           for (std::size_t lane = 0; lane < at(batch.cells_used); ++lane) {
             Vec3<double> force;
-            for (int i = 0; i < 3; ++i) force[i] = -result.gradient[(first + at(i)) * native_width + lane];
+            for (int i = 0; i < (*batch.blocks)[k].dim; ++i) force[i] = -result.gradient[(first + at(i)) * native_width + lane];
             add_force(batch.nodes[k * native_width + lane], force);
           }
         }
@@ -210,6 +210,13 @@ class Body {
     for (std::size_t n = 0; n < places_.size(); ++n)
       if (const int p = parts_of_nodes_[n]; p >= 0)
         parts_[at(p)].size = std::max(parts_[at(p)].size, std::sqrt(norm2(places_[n] - parts_[at(p)].centre)));
+    if (model_.fields()[at(field_)].manifold->dim == 2)  // nothing leaves the plane
+      for (Part& part : parts_)
+        for (const std::size_t motion : {2U, 3U, 4U}) {
+          Motion held{};
+          held[motion] = 1;
+          part.hold(held);
+        }
   }
 
   template <class Hold>
@@ -253,7 +260,7 @@ std::vector<int> deformations(const Problem& problem, const DiscreteProblem& mod
         return !other.info.load && !other.info.stress_free && std::find(other.fields.begin(), other.fields.end(), f) != other.fields.end();
       });
       const bool known = std::find(list.begin(), list.end(), f) != list.end();
-      if (term.info.stress_free && term.info.fields[k].moves && m.linear && m.dim == 3 && !held && !known) list.push_back(f);
+      if (term.info.stress_free && term.info.fields[k].moves && m.linear && m.dim >= 2 && !held && !known) list.push_back(f);
     }
   return list;
 }

@@ -25,7 +25,7 @@ TEST(Catalogue, ListsEveryEntryOnceAndLoadsApart) {
     names.push_back(info.type);
   }
   for (const char* type : {"chiral-skyrmion", "cosserat-plate", "cosserat-rod", "cosserat-shell", "expression", "frank-oseen", "harmonic",
-                           "l2-distance", "reissner-mindlin"})
+                           "hyperelastic", "l2-distance", "reissner-mindlin"})
     EXPECT_EQ(std::count(names.begin(), names.end(), type), 1) << type;
   std::vector<std::string> loads;
   for (const EnergyInfo& info : load_catalogue()) {

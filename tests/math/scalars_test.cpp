@@ -19,6 +19,10 @@ void for_each_function(Check check) {
   check(
       "log", [](const auto& x) { return log(x); }, 0.4);
   check(
+      "expm1", [](const auto& x) { return expm1(x); }, 0.3);
+  check(
+      "log1p", [](const auto& x) { return log1p(x); }, -0.4);
+  check(
       "sin", [](const auto& x) { return sin(x); }, 1.1);
   check(
       "cos", [](const auto& x) { return cos(x); }, 1.1);
@@ -164,6 +168,12 @@ TEST(PackFunctions, ExpAndLogAreRightToTwoUnitsInTheLastPlaceOverTheirWholeRange
   EXPECT_LT(worst_exp, 5e-16);
   EXPECT_LT(worst_log, 5e-16);
   EXPECT_LT(worst_near_one, 5e-16);
+  double worst_small = 0;
+  for (double x = 1e-20; x < 1e20; x *= 1.37) {
+    worst_small = std::max(worst_small, std::abs(log1p(P(x))[0] / std::log1p(x) - 1));
+    if (x < 1) worst_small = std::max(worst_small, std::abs(log1p(P(-x))[0] / std::log1p(-x) - 1));
+  }
+  EXPECT_LT(worst_small, 7e-16);
 }
 
 TEST(PackFunctions, ExpAndLogKnowTheEndsOfTheirRange) {
@@ -181,5 +191,8 @@ TEST(PackFunctions, ExpAndLogKnowTheEndsOfTheirRange) {
   EXPECT_EQ(log(P(1.0))[0], 0);
   EXPECT_TRUE(std::isnan(log(P(-1.0))[0]));
   EXPECT_TRUE(std::isnan(log(P(nan))[0]));
+  EXPECT_EQ(log1p(P(-1.0))[0], -inf);
+  EXPECT_EQ(log1p(P(inf))[0], inf);
+  EXPECT_TRUE(std::isnan(log1p(P(-2.0))[0]));
   EXPECT_NEAR(log(P(4e-320))[0], std::log(4e-320), 1e-12);
 }

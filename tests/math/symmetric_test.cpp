@@ -155,3 +155,24 @@ TEST(Symmetric, ExpAndLogHaveExactDerivativesWhereEigenvaluesMeet) {
     check("log", [](const auto& m) { return symmetric_log(m); });
   }
 }
+
+TEST(Symmetric, SquaredLogHasTheDerivativesOfTheLogWhereverItsEigenvaluesAre) {
+  Random random(11);
+  using S = Jet<double, 6>;
+  for (const Vec<double, 3>& lambda :
+       {Vec<double, 3>{{0.5, -0.3, 2}}, {{0.4, 0.4, -0.2}}, {{0.4, 0.4 + 1e-9, 0.4}}, {{0, 0, 0}}, {{-0.999, 30, 1}}}) {
+    const Mat<double, 3, 3> at = with_eigenvalues(random, lambda);
+    Mat<S, 3, 3> s;
+    for (int i = 0, n = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j, ++n) s(i, j) = s(j, i) = S::variable(at(i, j), n);
+    const S direct = squared_log1p(s), by_log = norm2(symmetric_log1p(s));
+    const double size = 1 + 1e3 * (lambda[0] < -0.9 ? 1e3 : 0);
+    EXPECT_NEAR(direct.v, by_log.v, 1e-13 * size);
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_NEAR(direct.gradient(i), by_log.gradient(i), 1e-13 * size);
+      for (int j = i; j < 6; ++j) EXPECT_NEAR(direct.hessian(i, j), by_log.hessian(i, j), 2e-13 * size * size) << lambda[0];
+    }
+    EXPECT_EQ(squared_log1p(at), direct.v);
+  }
+  EXPECT_TRUE(std::isnan(squared_log1p(with_eigenvalues(random, Vec<double, 3>{{-1.5, 0, 1}}))));
+}

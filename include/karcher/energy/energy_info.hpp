@@ -83,6 +83,7 @@ struct EnergyInfo {
   bool stress_free = false;
   /// A potential of the volume that a region encloses: a problem adds the parameters share[i] and origin[i] that make it one (problem/enclosure.hpp).
   bool enclosure = false;
+  std::optional<Condition> constant{};  ///< where it holds, not the energy but its derivative vanishes there
 
   std::string term_name() const { return load ? type + "-load" : type; }
 };

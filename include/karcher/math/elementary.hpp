@@ -133,6 +133,34 @@ struct Log {
   }
 };
 
+/// log(1 + x) = log(y) x / (y - 1) with y = 1 + x rounded (Kahan; Higham, "Accuracy and Stability", 2002, section 1.14.1)
+template <class T>
+T plain_log1p(const T& x) {
+  using karcher::abs;
+  const T y = T(1.0) + x, rounded = y - T(1.0);
+  const auto tiny = abs(rounded) <= T(0.0), small = x < T(1.0);
+  return select(tiny, x, plain_log(y) * select(small, x / select(tiny, T(1.0), rounded), T(1.0)));
+}
+
+struct Log1p {
+  template <int Order, class T>
+  Derivatives<T, Order> derivatives(const T& x) const {
+    Derivatives<T, Order> f = Log{}.derivatives<Order>(T(1.0) + x);
+    f[0] = plain_log1p(x);
+    return f;
+  }
+};
+
+struct Expm1 {
+  template <int Order, class T>
+  Derivatives<T, Order> derivatives(const T& x) const {
+    Derivatives<T, Order> f;
+    f[0] = lanewise([](double y) { return std::expm1(y); }, x);
+    for (std::size_t n = 1; n <= Order; ++n) f[n] = f[0] + T(1.0);
+    return f;
+  }
+};
+
 /// x^p for a constant real p. A derivative whose factor p (p-1) ... vanishes is zero also at x = 0.
 struct Power {
   double exponent;
@@ -259,7 +287,9 @@ using std::atanh;
 using std::cos;
 using std::cosh;
 using std::exp;
+using std::expm1;
 using std::log;
+using std::log1p;
 using std::pow;
 using std::sin;
 using std::sinh;
@@ -281,6 +311,14 @@ X exp(const X& x) {
 template <Composite X>
 X log(const X& x) {
   return evaluate(function_detail::Log{}, x);
+}
+template <Composite X>
+X expm1(const X& x) {
+  return evaluate(function_detail::Expm1{}, x);
+}
+template <Composite X>
+X log1p(const X& x) {
+  return evaluate(function_detail::Log1p{}, x);
 }
 template <Composite X>
 X sin(const X& x) {

@@ -387,13 +387,50 @@ Mat<X, N, N> symmetric_log1p(const Mat<X, N, N>& s) {
   const auto e = eigen(d::plain(s));
   Vec<T, N> f, lambda;
   for (int i = 0; i < N; ++i) {
-    // log(1 + x) = log(y) x / (y - 1) with y = 1 + x rounded (Kahan; Higham, "Accuracy and Stability", 2002, section 1.14.1)
-    const T y = T(1.0) + e.values[i], rounded = y - T(1.0);
-    const auto tiny = abs(rounded) <= T(0.0);
-    lambda[i] = y;
-    f[i] = select(tiny, e.values[i], d::Logarithm::value(y) * (e.values[i] / select(tiny, T(1.0), rounded)));
+    lambda[i] = T(1.0) + e.values[i];
+    f[i] = function_detail::plain_log1p(e.values[i]);
   }
   return d::apply<d::Logarithm>(s, e.vectors, lambda, f);
+}
+
+/// |log(I + S)|^2 of a symmetric matrix S with eigenvalues greater than -1, accurate also for small S; NaN for others.
+///
+/// A scalar with derivatives is S = V (Lambda + E) V^T as above, and with f(x) = log^2(1 + x)
+///   |log(I + S)|^2 = sum_i f(lambda_i) + f'(lambda_i) E_ii + 1/2 sum_ij f'[lambda_i, lambda_j] E_ij^2,
+/// where with y = 1 + lambda, f' = 2 log(y)/y has the divided differences f'[i, j] = 2 (log[y_i, y_j] - log(y_j)/y_j)/y_i.
+template <class X, int N>
+X squared_log1p(const Mat<X, N, N>& s) {
+  namespace d = symmetric_detail;
+  using T = Base<X>;
+  static_assert(d::order<X> <= 2);
+  const auto [values, v] = eigen(d::plain(s));
+  Vec<T, N> y, log_y;
+  T sum = T(0.0);
+  for (int i = 0; i < N; ++i) {
+    y[i] = T(1.0) + values[i];
+    log_y[i] = function_detail::plain_log1p(values[i]);
+    sum += log_y[i] * log_y[i];
+  }
+  X result = constant<X>(sum);
+  if constexpr (d::order < X >> 0)
+    for (int j = 0; j < N; ++j) {
+      Vec<X, N> sv;
+      for (int k = 0; k < N; ++k) {
+        sv[k] = scaled(s(k, 0), v(0, j));
+        for (int l = 1; l < N; ++l) add_scaled(sv[k], s(k, l), v(l, j));
+      }
+      for (int i = 0; i <= j; ++i) {
+        if (i < j && d::order<X> < 2) continue;
+        X e = scaled(sv[0], v(0, i));
+        for (int k = 1; k < N; ++k) add_scaled(e, sv[k], v(k, i));
+        set_value(e, T(0.0));
+        const T slope = log_y[j] / y[j];
+        if (i == j) add_scaled(result, e, T(2.0) * slope);
+        const T difference = d::divided_difference_sorting<d::Logarithm, 2, T>({y[i], y[j]}, {log_y[i], log_y[j]});
+        if (d::order<X> == 2) add_square(result, e, T(i == j ? 1.0 : 2.0) * (difference - slope) / y[i]);
+      }
+    }
+  return result;
 }
 
 /// log of a symmetric positive definite matrix; NaN where it is not.

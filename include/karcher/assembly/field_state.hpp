@@ -100,8 +100,9 @@ struct FieldState {
 };
 
 /// All lanes of an entry.
-inline void store_lanes(const NativeScalar& x, std::size_t entry, AlignedVector<double>& to) {
-  if constexpr (lanes<NativeScalar> == 1)
+template <class T>
+void store_lanes(const T& x, std::size_t entry, AlignedVector<double>& to) {
+  if constexpr (lanes<T> == 1)
     to[entry] = lane(x, 0);
   else
     x.store(to.data() + entry * native_width);

@@ -200,10 +200,19 @@ class Reader {
       RegionSpec& spec = problem_.regions.emplace_back();
       spec.name = e.key;
       spec.place = e.place;
-      spec.dim = s.integer("dim");
-      const Expression where = s.expression("where", problem_.scope);
-      spec.where = [where](const Vec3<double>& x) { return where(x, 0) != 0; };
-      if (where.uses_t()) refuse(s.place("where"), s.path("where") + " must not depend on t.");
+      if (s.has("where") && s.has("near")) refuse(s.place("near"), s.path() + " has both \"where\" and \"near\"; one of them is meant.");
+      if (s.has("near")) {
+        spec.dim = s.integer("dim", 0);
+        if (spec.dim != 0) refuse(s.place("dim"), fmt::format("{} is {}, but \"near\" selects a node, of dimension 0.", s.path("dim"), spec.dim));
+        const std::vector<double> near = s.constants("near", problem_.scope);
+        spec.near = Vec3<double>{{near[0], near[1], near[2]}};
+      } else {
+        if (!s.has("where")) refuse(s.place(), s.path() + " lacks the key \"where\" (or \"near\").");
+        spec.dim = s.integer("dim");
+        const Expression where = s.expression("where", problem_.scope);
+        spec.where = [where](const Vec3<double>& x) { return where(x, 0) != 0; };
+        if (where.uses_t()) refuse(s.place("where"), s.path("where") + " must not depend on t.");
+      }
       spec.boundary = s.flag("boundary");
       all.append(e.key, {}, s.resolved());
     }

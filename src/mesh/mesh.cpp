@@ -160,6 +160,30 @@ Region select(const Mesh& mesh, const std::string& region_name, int dim, bool bo
   return region;
 }
 
+Region nearest_node(const Mesh& mesh, const std::string& region_name, bool boundary_only, const Vec3<double>& point) {
+  const auto text = [](const Vec3<double>& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); };
+  const std::vector<Cell> all = entities(mesh, 0, boundary_only);
+  const auto place = [&](const Cell& vertex) -> const Vec3<double>& { return mesh.nodes[at(vertex.nodes[0])]; };
+  const auto distance = [&](const Cell& vertex) { return std::sqrt(norm2(place(vertex) - point)); };
+  const Cell& nearest = *std::ranges::min_element(all, {}, distance);
+  const double nearest_distance = distance(nearest);
+
+  const auto number = [&](int node) { return mesh.first_copies.empty() ? node : mesh.first_copies[at(node)]; };
+  for (const Cell& other : all)
+    if (distance(other) <= nearest_distance + 1e-9 * diagonal(mesh) && number(other.nodes[0]) != number(nearest.nodes[0]))
+      throw InputError("Region \"" + region_name + "\": the nodes at " + text(place(nearest)) + " and " + text(place(other)) +
+                       " are equally near to " + text(point) + "; name a point that is nearer to the one that is meant.");
+  double size = 0;
+  for (const Cell& cell : mesh.cells)
+    if (std::ranges::count(vertices(cell), nearest.nodes[0]) > 0)
+      for (const int v : vertices(cell)) size = std::max(size, std::sqrt(norm2(mesh.nodes[at(v)] - place(nearest))));
+  if (!(nearest_distance <= size))
+    throw InputError(
+        fmt::format("Region \"{}\": the node nearest to {} is at {}, {:.3g} away, which is more than the size {:.3g} of the cells there.",
+                    region_name, text(point), text(place(nearest)), nearest_distance, size));
+  return {region_name, 0, {nearest}};
+}
+
 void check_identity(const Mesh& mesh) {
   const auto place = [&](int node) {
     const Vec3<double>& x = mesh.nodes[at(node)];

@@ -32,7 +32,9 @@ void add_region(Mesh& mesh, const RegionSpec& spec) {
   if (spec.dim > mesh.dim)
     refuse(spec.place, "regions." + spec.name + ".dim is " + std::to_string(spec.dim) + ", but the cells of the mesh have dimension " +
                            std::to_string(mesh.dim) + ".");
-  mesh.regions[spec.name] = at_place(spec.place, [&] { return select(mesh, spec.name, spec.dim, spec.boundary, spec.where); });
+  mesh.regions[spec.name] = at_place(spec.place, [&] {
+    return spec.near ? nearest_node(mesh, spec.name, spec.boundary, *spec.near) : select(mesh, spec.name, spec.dim, spec.boundary, spec.where);
+  });
 }
 
 std::vector<Vec3<double>> reference_normals(const Problem& problem, const FieldSpec& spec, const Space& space) {

@@ -30,6 +30,8 @@ refine = 0
 dim = 2
 where = "x < 2"
 boundary = false
+[regions.tip]
+near = [1, 1, 0]
 [reference]
 position = ["x", "y", "z"]
 order = 1
@@ -133,7 +135,7 @@ field = "m"
 at = [1, 1, 0]
 )toml";
 
-/// The section's entries in a resolved problem: those of the table, of the only one of named tables, or of all in an array; the series among the parameters.
+/// The section's entries in a resolved problem: those of the table, of all named tables, or of all in an array; the series among the parameters.
 std::vector<Entry> resolved(const Value& file, const SectionInfo& section) {
   if (section.name.empty()) return file.entries;
   if (section.name == "fields.initial") return file.find("fields")->value.entries.at(0).value.find("initial")->value.entries;
@@ -141,9 +143,14 @@ std::vector<Entry> resolved(const Value& file, const SectionInfo& section) {
   if (!e) return {};
   if (section.name == "parameters") return e->value.find("P")->value.entries;
   std::vector<Entry> all;
-  for (const Value& item : e->value.items) all.insert(all.end(), item.entries.begin(), item.entries.end());
-  if (section.header.starts_with("[[")) return all;
-  return section.header.find('.') != std::string::npos ? e->value.entries.at(0).value.entries : e->value.entries;
+  const auto append = [&](const Value& table) { all.insert(all.end(), table.entries.begin(), table.entries.end()); };
+  if (section.header.starts_with("[["))
+    for (const Value& item : e->value.items) append(item);
+  else if (section.header.find('.') != std::string::npos)
+    for (const Entry& named : e->value.entries) append(named.value);
+  else
+    append(e->value);
+  return all;
 }
 const Entry* find(const std::vector<Entry>& entries, const std::string& key) {
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key; });

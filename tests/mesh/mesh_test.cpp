@@ -72,6 +72,21 @@ TEST(Mesh, RefusesEmptyAndImpossibleRegions) {
   EXPECT_TRUE(contains(message([&] { select(mesh, "film", 3, true, nowhere); }), "cells on the boundary"));
 }
 
+TEST(Mesh, SelectsTheNodeNearestToAPoint) {
+  const Mesh mesh = box("hexahedron", 2);
+  for (const bool boundary : {false, true}) {
+    const Region corner = nearest_node(mesh, "corner", boundary, {{1.01, 0.98, 1}});
+    ASSERT_EQ(corner.cells.size(), 1u);
+    EXPECT_EQ(corner.dim, 0);
+    EXPECT_LT(norm2(mesh.nodes[static_cast<std::size_t>(corner.cells[0].nodes[0])] - Vec3<double>{{1, 1, 1}}), 1e-20);
+  }
+  EXPECT_TRUE(contains(message([&] {
+                         nearest_node(mesh, "tip", true, {{0, 0.5 / 3, 0}});
+                       }),
+                       "Region \"tip\": the nodes at (0, 0, 0) and (0, 0.333333, 0) are"));
+  EXPECT_TRUE(contains(message([&] { nearest_node(mesh, "tip", false, {{10, 1, 1}}); }), "is at (1, 1, 1), 9 away, which is more than the size"));
+}
+
 TEST(Mesh, NamesTheNearestRegion) {
   const std::string what = message([] { box("tetrahedron").region("botom"); });
   EXPECT_TRUE(contains(what, "There is no region \"botom\""));

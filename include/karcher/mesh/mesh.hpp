@@ -61,6 +61,10 @@ std::vector<Cell> entities(const Mesh& mesh, int dim, bool boundary_only);
 /// Region of all entities of dimension dim whose every geometry node satisfies the predicate. \throws InputError if empty.
 Region select(const Mesh& mesh, const std::string& name, int dim, bool boundary_only, const std::function<bool(const Vec3<double>&)>& predicate);
 
+/// Region of the vertex of the mesh that is nearest to a point. \throws InputError where two are equally near to 1e-9 of the mesh's size, or where the point is farther away
+/// than the cells around the vertex are large, which makes it a mistake.
+Region nearest_node(const Mesh& mesh, const std::string& name, bool boundary_only, const Vec3<double>& point);
+
 /// Makes sure that entities can be told apart by their vertices, which everything built on a mesh relies on. \throws InputError if a cell has a
 /// vertex twice, if two cells have the same vertices, or if two different edges join the same two vertices (a periodic mesh needs three cells
 /// around).

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct RegionSpec {
   int dim = 0;
   bool boundary = false;
   std::function<bool(const Vec3<double>&)> where{};
+  std::optional<Vec3<double>> near{};  ///< instead of `where`, with dim 0: the node nearest to this point
 };
 
 /// The stress-free configuration, where it is not the mesh.

@@ -48,8 +48,6 @@ class Sum {
 class Names {
  public:
   Names(const std::vector<Density::Field>& fields, const Parameters& parameters, int directions) : symbols({"x", "y", "z"}), directions_(directions) {
-    for (auto& tangent : tangents_)
-      for (std::uint32_t& t : tangent) t = symbols.add_hidden_variable();
     for (const Density::Field& f : fields) add_coordinates(f);
     symbols.add_variable("t");
     for (const auto& [name, value] : parameters) {
@@ -58,36 +56,27 @@ class Names {
       else
         symbols.add_variable(name);
     }
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-      add_derivatives(fields[f], numbers_[f]);
+    for (std::size_t f = 0; f < fields.size(); ++f)
       if (fields[f].manifold->body_axes) add_rotation(fields[f], numbers_[f]);
-    }
   }
 
   Symbols symbols;
 
  private:
-  void add_coordinates(const Density::Field& f) {
-    auto& mine = numbers_.emplace_back();
-    for (int c = 0; c < f.manifold->ambient; ++c) mine.push_back(symbols.add_variable(fmt::format("{}[{}]", f.name, c)));
-    for (int i = 0; i < 3 * f.manifold->ambient; ++i) mine.push_back(symbols.add_hidden_variable());
-  }
   /// In solids the directions are the axes.
-  void add_derivatives(const Density::Field& f, const std::vector<std::uint32_t>& u) {
+  void add_coordinates(const Density::Field& f) {
     const auto n = static_cast<std::size_t>(f.manifold->ambient);
-    for (std::size_t c = 0; c < n; ++c)
-      for (std::size_t axis = 0; axis < 3 && directions_ > 0; ++axis) {
-        Formula derivative;
-        if (directions_ == 3) {
-          derivative.symbols = {u[(1 + axis) * n + c]};
-          derivative.result = derivative.symbols.front() | Formula::of_symbol;
-        } else {
-          Sum sum(tangents_[0][axis], u[n + c]);
-          if (directions_ == 2) sum.plus(tangents_[1][axis], u[2 * n + c]);
-          derivative = sum.finish();
+    auto& mine = numbers_.emplace_back();
+    const auto add = [&](std::size_t c, const std::string& behind, bool named) {
+      return named ? symbols.add_variable(fmt::format("{}[{}]{}", f.name, c, behind)) : symbols.add_hidden_variable();
+    };
+    for (std::size_t c = 0; c < n; ++c) mine.push_back(add(c, "", true));
+    for (const bool along_axes : {true, false})
+      for (const char axis : {'x', 'y', 'z'})
+        for (std::size_t c = 0; c < n; ++c) {
+          const std::uint32_t number = add(c, std::string(".") + axis, along_axes ? directions_ == 1 || directions_ == 2 : directions_ == 3);
+          if (!along_axes) mine.push_back(number);
         }
-        symbols.define(fmt::format("{}[{}].{}", f.name, c, "xyz"[axis]), std::move(derivative));
-      }
   }
   /// Of the unit quaternion q: k_a = 2 Im(conj(q) d_a q), and the columns of its rotation matrix.
   void add_rotation(const Density::Field& f, const std::vector<std::uint32_t>& q) {
@@ -113,8 +102,7 @@ class Names {
   }
 
   int directions_;
-  std::uint32_t tangents_[3][3];
-  std::vector<std::vector<std::uint32_t>> numbers_;  ///< of the variables of every field: values, derivatives along t_1, along t_2, along t_3
+  std::vector<std::vector<std::uint32_t>> numbers_;  ///< of variables of every field: values, derivatives along t_1, along t_2, along t_3
 };
 
 std::string base_of(std::string_view name) { return std::string(name.substr(0, name.find_first_of(".["))); }
@@ -185,12 +173,12 @@ Density::Density(const Scope& scope, std::vector<Field> fields, std::vector<std:
     return std::any_of(used.begin(), used.end(), [&](std::uint32_t v) { return v >= begin && v < end; });
   };
   for (std::size_t f = 0; f < fields_.size(); ++f)
-    if (!uses(variables.field[f], variables.field[f] + static_cast<std::size_t>(4 * ambient[f])))
+    if (!uses(variables.value(f), variables.end(f)))
       refuse(density_.value.place, fmt::format("{} does not use the field \"{}\": {}.", density_.key, fields_[f].name, parts_of(fields_[f], 3)));
 
   // Parameters are evaluated at every point: only those that are needed.
   Parameters needed;
-  std::size_t next = variables.parameters + 1;
+  std::size_t next = variables.parameters() + 1;
   for (auto& p : parameters_) {
     const bool variable = !p.second.is_constant();
     if (!variable || uses(next, next + 1)) needed.push_back(std::move(p));

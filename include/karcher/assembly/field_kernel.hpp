@@ -2,6 +2,7 @@
 /// \file
 /// FieldKernel: what a FieldState is for a term that does not know the type of its field. Local coordinates y and what depends on them: interpolation.hpp.
 
+#include <algorithm>
 #include <memory>
 
 #include "karcher/assembly/field_state.hpp"
@@ -21,12 +22,12 @@ class FieldKernel {
 
   virtual MaskOf<T> gather(const Configuration& u, int field, const Batch& batch, const KindData& kind, std::size_t slot) = 0;
   virtual MaskOf<T> move_to(const BatchPoint& point, const KindData& kind, std::size_t slot, int q) = 0;
-  /// Value and derivatives in ambient coordinates, one after the other.
-  virtual void jet(T* z) const = 0;
+  /// The jet z: the value, and the derivatives one after the other, in ambient coordinates.
+  virtual void jet(T* value, T* derivatives) const = 0;
   /// Finds the derivatives of the jet, the second ones if asked for, and those of the local coordinates by the nodes.
   virtual void differentiate(Want want) = 0;
-  /// dz/dy, of which the entries that do not vanish are set.
-  virtual void rows(T* g, std::size_t stride) const = 0;
+  /// dz/dy row after row, of which the entries that do not vanish are set.
+  virtual void rows(T* value, T* derivatives, std::size_t stride) const = 0;
   /// f += l dz/dy
   virtual void add_covector(const T* l, T* f) const = 0;
   /// c += l d2z/dy2, upper triangle.
@@ -49,6 +50,9 @@ class FieldKernelOf final : public FieldKernel {
   using M = typename I::Manifold;
   using State = FieldState<I, D>;
   static constexpr int N = M::ambient, k = M::dim, L = State::local;
+  static constexpr bool unit = requires { M::unit_scale; }
+  &&std::is_same_v<typename I::Chart, ProjectionChart>;
+  static constexpr bool by_jets = !unit && !is_linear<M>;
 
  public:
   std::size_t ambient() const override { return N; }
@@ -62,32 +66,62 @@ class FieldKernelOf final : public FieldKernel {
   }
   MaskOf<T> move_to(const BatchPoint& point, const KindData& kind, std::size_t slot, int q) override { return state_.move_to(point, kind, slot, q); }
 
-  void jet(T* z) const override {
+  void jet(T* value, T* derivatives) const override {
     const auto& jet = state_.interpolation.jet();
-    std::copy(jet.value.e.begin(), jet.value.e.end(), z);
-    for (std::size_t a = 0; a < D; ++a) std::copy(jet.d[a].e.begin(), jet.d[a].e.end(), z + (1 + a) * N);
+    std::copy(jet.value.e.begin(), jet.value.e.end(), value);
+    for (std::size_t a = 0; a < D; ++a) std::copy(jet.d[a].e.begin(), jet.d[a].e.end(), derivatives + a * N);
   }
 
   void differentiate(Want want) override {
     state_.linearize();
-    if constexpr (!is_linear<M>) {
+    if constexpr (by_jets) {
       if (want == Want::hessian)
         set(second_order_);
       else
         set(first_order_);
+      want_ = want;
     }
-    want_ = want;
   }
-  void rows(T* g, std::size_t stride) const override {
+
+  // By jets, or in closed form: y are the derivatives themselves, or those of a unit vector in the projection chart (see seeded_jet), with 1/s^2 = curvature
+  //   q(w) = q + E w - |w|^2/(2 s^2) q,  d_a q = E k_a - (w.k_a)/s^2 (q + E w) - |w|^2/(2 s^2) E k_a.
+
+  void rows(T* value, T* derivatives, std::size_t stride) const override {
     if constexpr (is_linear<M>) {
-      for (std::size_t i = 0; i < L; ++i) g[i * stride + i] = T(1.0);
+      for (std::size_t i = 0; i < k; ++i) value[i * stride + i] = T(1.0);
+      for (std::size_t i = k; i < L; ++i) derivatives[(i - k) * stride + i] = T(1.0);
+    } else if constexpr (unit) {
+      const auto& e = state_.interpolation.frame();
+      const auto y = state_.interpolation.local_coordinates();
+      const auto& q = state_.interpolation.jet().value;
+      for (int c = 0; c < N; ++c) {
+        T* row = value + static_cast<std::size_t>(c) * stride;
+        for (int i = 0; i < k; ++i) row[i] = e(c, i);
+        for (int a = 0; a < D; ++a) {
+          T* slope = derivatives + static_cast<std::size_t>(a * N + c) * stride;
+          const T back = -(curvature * q[c]);
+          for (int i = 0; i < k; ++i) {
+            slope[i] = back * y[(1 + a) * k + i];
+            slope[(1 + a) * k + i] = e(c, i);
+          }
+        }
+      }
     } else {
-      for_each(second_order_, [&](std::size_t r, const auto& z) { std::copy(z.g.begin(), z.g.end(), g + r * stride); });
+      for_each(second_order_,
+               [&](std::size_t r, const auto& z) { std::ranges::copy(z.g, r < N ? value + r * stride : derivatives + (r - N) * stride); });
     }
   }
   void add_covector(const T* l, T* f) const override {
     if constexpr (is_linear<M>) {
       for (std::size_t i = 0; i < L; ++i) f[i] += l[i];
+    } else if constexpr (unit) {
+      const auto y = state_.interpolation.local_coordinates();
+      add_in_frame(l, f);
+      for (int a = 0; a < D; ++a) {
+        const T inward = curvature * along(l, 1 + a, state_.interpolation.jet().value);
+        for (int i = 0; i < k; ++i) f[i] -= inward * y[(1 + a) * k + i];
+        add_in_frame(l + (1 + a) * N, f + (1 + a) * k);
+      }
     } else {
       const auto add = [&](std::size_t r, const auto& slopes) {
         for (std::size_t i = 0; i < L; ++i) f[i] += l[r] * slopes[i];
@@ -99,7 +133,23 @@ class FieldKernelOf final : public FieldKernel {
     }
   }
   void add_curvature(const T* l, T* c, std::size_t stride) const override {
-    if constexpr (!is_linear<M>) {
+    if constexpr (unit) {
+      const auto y = state_.interpolation.local_coordinates();
+      const auto& jet = state_.interpolation.jet();
+      T diagonal = along(l, 0, jet.value);
+      for (int a = 0; a < D; ++a) {
+        diagonal += along(l, 1 + a, jet.d[static_cast<std::size_t>(a)]);
+        const T inward = curvature * along(l, 1 + a, jet.value);
+        T tangential[k]{};
+        add_in_frame(l + (1 + a) * N, tangential);
+        const T* ka = y.e.data() + (1 + a) * k;
+        for (std::size_t i = 0; i < k; ++i) {
+          c[i * stride + static_cast<std::size_t>(1 + a) * k + i] -= inward;
+          for (std::size_t j = i; j < k; ++j) c[i * stride + j] -= curvature * (tangential[i] * ka[j] + ka[i] * tangential[j]);
+        }
+      }
+      for (std::size_t i = 0; i < k; ++i) c[i * stride + i] -= curvature * diagonal;
+    } else if constexpr (by_jets) {
       Jet<T, L> sum;
       for_each(second_order_, [&](std::size_t r, const auto& z) {
         for (std::size_t p = 0; p < sum.h.size(); ++p) sum.h[p] += l[r] * z.h[p];
@@ -169,15 +219,36 @@ class FieldKernelOf final : public FieldKernel {
     for (std::size_t a = 0; a < D; ++a)
       for (int c = 0; c < N; ++c) f((1 + a) * N + static_cast<std::size_t>(c), jet.d[a][c]);
   }
+  /// l . x for the part of l that belongs to the value or a derivative.
+  static T along(const T* l, int part, const Vec<T, N>& x) {
+    T sum = T(0.0);
+    for (int c = 0; c < N; ++c) sum += l[part * N + c] * x[c];
+    return sum;
+  }
+  /// f += E^T l
+  void add_in_frame(const T* l, T* f) const {
+    const auto& e = state_.interpolation.frame();
+    for (int c = 0; c < N; ++c)
+      for (int i = 0; i < k; ++i) f[i] += l[c] * e(c, i);
+  }
   static void add_block(const Mat<T, k, k>& block, T* to, std::size_t stride) {
     for (std::size_t r = 0; r < k; ++r)
       for (std::size_t s = 0; s < k; ++s) to[r * stride + s] += block(static_cast<int>(r), static_cast<int>(s));
   }
 
+  static constexpr double scale() {
+    if constexpr (unit)
+      return M::unit_scale;
+    else
+      return 1;
+  }
+  static constexpr double curvature = 1 / (scale() * scale());
+  struct Nothing {};
+
   State state_;
   Want want_ = Want::energy;
-  std::conditional_t<is_linear<M>, char, FieldJet<M, D, Jet<T, L>>> second_order_;
-  std::conditional_t<is_linear<M>, char, FieldJet<M, D, Dual<T, L>>> first_order_;
+  std::conditional_t<by_jets, FieldJet<M, D, Jet<T, L>>, Nothing> second_order_;
+  std::conditional_t<by_jets, FieldJet<M, D, Dual<T, L>>, Nothing> first_order_;
   std::vector<Mat<T, k, k>> second_;
 };
 

@@ -37,19 +37,30 @@ class Tape {
     select,
     curved  ///< partial derivatives by jets
   };
+  /// y from `begin` up to `end`.
+  struct Run {
+    std::uint32_t begin, end;
+  };
   /// An instruction on numbered values: first the variables, then what the instructions give.
   struct Step {
     Instruction instruction;
     Kind kind = Kind::passive;
-    bool a = false, b = false;                  ///< whether these operands depend on y
-    double by_a = 0, by_b = 0;                  ///< of linear
-    std::vector<std::uint32_t> on, on_a, on_b;  ///< y that the result and the operands depend on
+    bool a = false, b = false;  ///< whether these operands depend on y
+    bool row = false;           ///< whether something that is not linear depends on the result, so that its row is needed
+    std::uint32_t row_a = 0, row_b = 0, row_to = 0;
+    std::uint32_t partials = 0;       ///< of curved: where they are kept
+    double by_a = 0, by_b = 0;        ///< of linear
+    std::vector<Run> on, on_a, on_b;  ///< y that the result and the operands depend on
   };
+
+  static std::vector<Run> runs(const std::vector<std::uint32_t>& coordinates);
 
   std::vector<Step> steps_;
   std::size_t variables_, coordinates_;
+  std::size_t rows_, curved_ = 0;  ///< how many there are
   std::uint32_t result_ = 0;
   bool branches_ = false;
+  bool mixed_ = false;  ///< whether something that is not linear has two operands that depend on y
 };
 
 /// The numbers of a Tape at one point after another.
@@ -60,26 +71,27 @@ class TapeRun {
 
   /// The variables: values to be set before value(), ...
   T* values() { return values_.data(); }
-  /// ... their derivatives by all y to be set before add_curvature(), variable after variable. Those on which a variable does not depend stay 0.
+  /// ... their derivatives by all y to be set before curvature(), variable after variable. Those on which a variable does not depend stay 0.
   T* rows() { return rows_.data(); }
 
   /// The program's value at the variables.
   T value();
   /// seed times the derivatives of the value by the variables, in their order; after value().
   const T* adjoints(const T& seed);
-  /// Adds to the upper triangle of the matrix h, coordinates x coordinates, seed times the second derivatives of the value as far as those of the variables vanish;
-  /// after adjoints().
-  void add_curvature(T* h);
+  /// The upper triangle of the matrix h, coordinates x coordinates: seed times the second derivatives of the value as far as those of the variables vanish; after
+  /// adjoints().
+  void curvature(T* h);
 
  private:
   struct Partials {
     T a, b, aa, ab, bb;
   };
   void differentiate(const Tape::Step& step, Partials& p);
-  void stop_at_lanes_not_reached(const Tape::Step& step, Partials& p);
+  /// Of what is not linear. Where a lane does not take what uses the value, its derivatives count for nothing, finite or not.
+  Partials partials(const Tape::Step& step) const;
 
   const Tape* tape_;
-  std::vector<T> values_, adjoints_, rows_, reached_;
+  std::vector<T> values_, adjoints_, rows_, reached_, mixed_;
   std::vector<Partials> partials_;
   std::vector<std::uint32_t> taken_;  ///< the steps that gave a value
 };

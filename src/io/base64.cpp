@@ -48,9 +48,11 @@ std::string decode_base64(std::string_view text) {
   return bytes;
 }
 
-std::vector<std::uint64_t> numbers(std::string_view bytes) {
-  std::vector<std::uint64_t> n(bytes.size() / sizeof(std::uint64_t));
-  std::memcpy(n.data(), bytes.data(), n.size() * sizeof(std::uint64_t));
+/// The first `count` numbers of the bytes; padding in the middle of the text may have left fewer.
+std::vector<std::uint64_t> numbers(std::string_view bytes, std::size_t count) {
+  if (bytes.size() < count * sizeof(std::uint64_t)) broken();
+  std::vector<std::uint64_t> n(count);
+  std::memcpy(n.data(), bytes.data(), count * sizeof(std::uint64_t));
   return n;
 }
 
@@ -99,12 +101,11 @@ std::string read_compressed(std::string_view text) {
   // The number of blocks tells how long the header is.
   constexpr std::size_t first = base64_size(sizeof(std::uint64_t));
   if (text.size() < first) broken();
-  const std::uint64_t blocks = numbers(decode_base64(text.substr(0, 8)) + decode_base64(text.substr(8, 4)))[0];
+  const std::uint64_t blocks = numbers(decode_base64(text.substr(0, 8)) + decode_base64(text.substr(8, 4)), 1)[0];
   if (blocks > text.size()) broken();
   const std::size_t header_size = base64_size((3 + blocks) * sizeof(std::uint64_t));
   if (text.size() < header_size) broken();
-  const std::vector<std::uint64_t> header = numbers(decode_base64(text.substr(0, header_size)));
-  if (header.size() < 3 + blocks) broken();
+  const std::vector<std::uint64_t> header = numbers(decode_base64(text.substr(0, header_size)), 3 + blocks);
   const std::string compressed = decode_base64(text.substr(header_size));
   std::string bytes;
   std::size_t at = 0;

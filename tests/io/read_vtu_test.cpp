@@ -99,6 +99,9 @@ TEST(ReadVtu, RefusesWhatIsDamagedOrNotOurs) {
   damaged = good;
   damaged[data] = '*';
   EXPECT_NE(refusal(damaged).find("its compressed data are damaged"), std::string::npos);
+  damaged = good;
+  damaged[data + 7] = '=';  // padding within a number
+  EXPECT_NE(refusal(damaged).find("its compressed data are damaged"), std::string::npos);
   // A header that promises more than the data can hold must not cost the memory.
   damaged = good;
   damaged.replace(data, 8, "/////////");

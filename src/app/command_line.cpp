@@ -97,7 +97,8 @@ int command_line(int argc, char** argv) {
   CheckOptions check_options;
   CLI::App& check_verb = *app.add_subcommand("check", "read and resolve everything, and print what is there");
   reading_options(check_verb, check_options.file, check_options.read);
-  check_verb.add_flag("--derivatives", check_options.derivatives, "compare gradient and Hessian with differences of the energy");
+  check_verb.add_flag("--derivatives", check_options.derivatives, "compare gradient and Hessian of every term with differences of its energy");
+  check_verb.add_flag("--objectivity", check_options.objectivity, "compare the energies before and after rigid motions");
   check_verb.callback([&] { computing([&] { return check(check_options); }); });
 
   ViewOptions view_options;

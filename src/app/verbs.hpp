@@ -31,7 +31,7 @@ int evaluate(const EvaluateOptions& options);
 struct CheckOptions {
   std::filesystem::path file;
   ReadOptions read;
-  bool derivatives = false;
+  bool derivatives = false, objectivity = false;
 };
 int check(const CheckOptions& options);
 

@@ -12,6 +12,7 @@
 #include "karcher/mesh/refine.hpp"
 #include "karcher/mesh/seams.hpp"
 #include "karcher/problem/enclosure.hpp"
+#include "karcher/problem/free_axes.hpp"
 #include "karcher/problem/mesh_points.hpp"
 #include "karcher/problem/probes.hpp"
 #include "karcher/problem/reference_energy.hpp"
@@ -130,6 +131,7 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.reference_order = stress_free.order;
   input.t = problem.continuation.from;
   input.initial = initial;
+  if (spec.info.one_axis) input.free_axes = free_axes(spec, d);
   return at_place(spec.place, [&] { return spec.make(std::move(input)); });
 }
 

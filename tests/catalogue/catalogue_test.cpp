@@ -33,7 +33,7 @@ TEST(Catalogue, ListsEveryEntryOnceAndLoadsApart) {
     EXPECT_EQ(info.term_name(), info.type + "-load");
     loads.push_back(info.type);
   }
-  EXPECT_EQ(loads, (std::vector<std::string>{"volume", "traction", "line", "point", "pressure"}));
+  EXPECT_EQ(loads, (std::vector<std::string>{"volume", "traction", "line", "point", "pressure", "moment"}));
 }
 
 TEST(Catalogue, HasHarmonicMapsIntoEveryManifoldAndRodsForDirectorsWithoutAHead) {

@@ -28,6 +28,8 @@ struct TermInput {
   double t = 0;
   /// Nodal values at the start, for energies that are free of stress there; none, or none of a field: its manifold's standard point.
   std::shared_ptr<const Configuration> initial;
+  /// Of energies with EnergyInfo::one_axis, by node of the first field: the tangent coordinate that alone is free; -1 where all are held, and off the region.
+  std::vector<signed char> free_axes;
 
   const Field& field(std::size_t slot) const { return all_fields[static_cast<std::size_t>(fields[slot])]; }
   /// The parameters with these keys, in their order.

@@ -83,6 +83,8 @@ struct EnergyInfo {
   bool stress_free = false;
   /// A potential of the volume that a region encloses: a problem adds the parameters share[i] and origin[i] that make it one (problem/enclosure.hpp).
   bool enclosure = false;
+  /// A potential only where the first field, of rotations, turns about one axis: a problem tells which (TermInput::free_axes).
+  bool one_axis = false;
   std::optional<Condition> constant{};  ///< where it holds, not the energy but its derivative vanishes there
 
   std::string term_name() const { return load ? type + "-load" : type; }

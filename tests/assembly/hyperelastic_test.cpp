@@ -141,9 +141,9 @@ struct AtPoint {
 AtPoint at(const std::string& material, const Mat3<double>& f, bool normalised = true) {
   using S = Jet<double, 9>;
   Mat3<S> h;
-  for (int i = 0; i < 9; ++i) h.e[static_cast<std::size_t>(i)] = S::variable(f.e[static_cast<std::size_t>(i)] - (i % 4 == 0 ? 1 : 0), i);
+  for (int i = 0; i < 9; ++i) h.e[static_cast<std::size_t>(i)] = S::variable(f.e[static_cast<std::size_t>(i)], i);
   S w(0.0);
-  const auto add = [&](const auto& density) { density.add_density(w, h); };
+  const auto add = [&](const auto& density) { density.add_energy_of_gradient(w, h); };
   const double less = normalised ? 1 : 0;
   if (material == "saint-venant-kirchhoff") add(SaintVenantKirchhoff<double>{{}, mu, lambda});
   if (material == "neo-hooke") add(NeoHooke<double>{{}, mu, lambda});
@@ -164,11 +164,9 @@ TEST(Hyperelastic, HasTheDensitiesThatFortyDigitsGive) {
     EXPECT_NEAR(at(material, f, false).energy, w[0], 1e-15 * (1 + 3 * w[0])) << material;
     EXPECT_NEAR(at(material, plane, false).energy, w[1], 1e-15 * (1 + 3 * w[0])) << material;
   }
-  Mat3<double> h = f, flat = plane;
-  for (int i = 0; i < 3; ++i) h(i, i) -= 1, flat(i, i) -= 1;
   double w = 0, in_plane = 0;
-  MooneyRivlin<double>{{}, 0.7, 0.4, 0.3, 0}.add_density(w, h);
-  MooneyRivlin<double>{{}, 0.7, 0.4, 0.3, 0}.add_density(in_plane, flat);
+  MooneyRivlin<double>{{}, 0.7, 0.4, 0.3, 0}.add_energy_of_gradient(w, f);
+  MooneyRivlin<double>{{}, 0.7, 0.4, 0.3, 0}.add_energy_of_gradient(in_plane, plane);
   EXPECT_NEAR(w, 3.8990679992588897, 1e-14);
   EXPECT_NEAR(in_plane, 3.7560182553369452, 1e-14);
 }

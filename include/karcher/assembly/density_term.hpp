@@ -8,7 +8,7 @@
 /// A model has at<P>(span<const P> parameters), the density at a point, P double or a pack.
 /// Derivatives of W come from jets in the local coordinates of its fields, those of the fields from the interpolation rules. A density of a deformation and a rotation
 /// that offers energy(body strains) (body_strains.hpp), or of a deformation and a director that offers energy(director strains) (director_strains.hpp), has jets in the
-/// strains instead.
+/// strains instead. That of one field with values in R^n that offers energy(gradient) (gradient_derivatives.hpp) has them in the gradient, and a Hessian of its own.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,9 @@
 #include "karcher/assembly/cell_batches.hpp"
 #include "karcher/assembly/director_strain_derivatives.hpp"
 #include "karcher/assembly/field_state.hpp"
+#include "karcher/assembly/gradient_derivatives.hpp"
 #include "karcher/assembly/point_parameters.hpp"
+#include "karcher/energy/surface_derivatives.hpp"
 #include "karcher/interpolation/interpolation.hpp"
 
 namespace karcher {
@@ -122,6 +124,12 @@ class DensityTerm : public Term {
                                                          std::declval<const FieldJet<typename Interpolation::Manifold, D, T>&>()...));
   static constexpr bool placed =
       density_detail::Placed<DensityAtPoint, Reference, FieldJet<typename Interpolation::Manifold, D, T>...> || std::tuple_size_v<Quantities> != 0;
+  static constexpr bool of_gradient = [] {
+    if constexpr (F == 1 && D > 0) {
+      if constexpr (is_linear<M<0>>) return OfGradient<DensityAtPoint, M<0>::dim, D, T>;
+    }
+    return false;
+  }();
 
  public:
   /// \param parameter_keys  keys of input.parameters in the order in which Model::at expects them
@@ -147,7 +155,10 @@ class DensityTerm : public Term {
   void set_load_parameter(double t) override { parameters_.set_load_parameter(batches_, t); }
 
   void evaluate(const Configuration& u, int b, Want want, BatchResult& out) const override {
-    evaluate_impl(u, b, want, out, std::make_index_sequence<F>{});
+    if constexpr (of_gradient)
+      evaluate_of_gradient(u, b, want, out);
+    else
+      evaluate_impl(u, b, want, out, std::make_index_sequence<F>{});
   }
 
   std::vector<std::array<double, native_width>> batch_part_energies(const Configuration& u, int b) const override {
@@ -269,6 +280,64 @@ class DensityTerm : public Term {
     report_lanes(energy, defined, out);
     store_lanes(gradient, out.gradient);
     store_lanes(hessian, out.hessian);
+  }
+
+  /// Directions are axes: of space, or of the plane z = 0 in which the stress-free configuration lies.
+  void evaluate_of_gradient(const Configuration& u, int b, Want want, BatchResult& out) const {
+    constexpr int k = M<0>::dim;
+    const KindData& kind = batches_.kind(b);
+    States states;
+    gather<0>(u, b, states);  // defined everywhere
+    auto& state = std::get<0>(states);
+    const std::size_t count = state.nodes.size(), n = count * k;
+    std::vector<T> gradient(want == Want::energy ? 0 : n, T(0.0));
+    PairSums<k, D, T> hessian(want == Want::hessian ? count : 0);
+    T energy = T(0.0);
+    for (int q = 0; q < kind.quadrature->size(); ++q) {
+      move_to<0>(b, q, states);
+      const Reference reference = reference_at(b, q);
+      const Mat<T, k, D> f = karcher::gradient(reference, state.interpolation.jet());
+      if constexpr (D < 3)
+        for (auto& dl : state.dl) {
+          const std::array<T, D> along = dl;
+          for (int a = 0; a < D; ++a) {
+            dl[static_cast<std::size_t>(a)] = along[0] * reference.tangent[0][a];
+            for (std::size_t c = 1; c < D; ++c) dl[static_cast<std::size_t>(a)] += along[c] * reference.tangent[c][a];
+          }
+        }
+      const T weight = batches_.point(b, q).weight;
+      const auto rho = density(b, q);
+      if (want == Want::energy) {
+        T w(0.0);
+        rho.add_energy_of_gradient(w, f);
+        energy += weight * w;
+        continue;
+      }
+      Mat<T, k, D> force;
+      if (want == Want::gradient) {
+        const auto w = karcher::of_gradient<Dual<T, k * D>>(rho, f);
+        energy += weight * w.v;
+        force.e = w.d;
+      } else {
+        auto w = karcher::of_gradient<Jet<T, k * D>>(rho, f);
+        energy += weight * w.v;
+        force.e = w.g;
+        for (T& h : w.h) h *= weight;
+        hessian.add(state.dl.data(), w);
+      }
+      for (T& x : force.e) x *= weight;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec<T, k> g = force * Vec<T, D>{state.dl[i]};
+        for (std::size_t c = 0; c < k; ++c) gradient[i * k + c] += g[static_cast<int>(c)];
+      }
+    }
+    report_lanes(energy, T(0.0) < T(1.0), out);
+    store_lanes(gradient, out.gradient);
+    if (want == Want::hessian)
+      hessian.finish([&](std::size_t i, std::size_t j, const T* block) {
+        for (std::size_t r = 0; r < k; ++r)
+          for (std::size_t c = 0; c < k; ++c) store_lanes(block[r * k + c], (i * k + r) * n + j * k + c, out.hessian);
+      });
   }
 
   /// Integrals over the cells of batch b of what numbers(density, reference, jets...) gives at a point, an array; lanes where everything is defined.

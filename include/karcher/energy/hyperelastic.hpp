@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "karcher/energy/energy_info.hpp"
-#include "karcher/energy/reference_point.hpp"
+#include "karcher/energy/surface_derivatives.hpp"
 #include "karcher/math/functions.hpp"
 #include "karcher/math/symmetric.hpp"
 
@@ -71,38 +71,15 @@ Mat3<W> twice_green(const Mat3<S>& h) {
 /// kind, S the same or variables without second derivatives (math/scalar.hpp).
 template <class Material, class P>
 struct Hyperelastic {
-  /// H of the jet of a deformation.
-  template <class R, class M>
-  static auto displacement_gradient(const R& r, const M& m) {
-    using S = std::decay_t<decltype(m.value[0])>;
-    Mat3<S> h;
-    for (int i = 0; i < M::Manifold::ambient; ++i)
-      for (int k = 0; k < M::directions; ++k) {
-        if constexpr (M::directions == 3) {  // the directions are the axes
-          h(i, k) = m.d[static_cast<std::size_t>(k)][i];
-        } else {
-          h(i, k) = S(0.0);
-          for (std::size_t a = 0; a < m.d.size(); ++a) add_scaled(h(i, k), m.d[a][i], r.tangent[a][k]);
-        }
-        if (i == k) h(i, k) -= S(1.0);
-      }
-    return h;
-  }
-
-  template <class W, class S>
-  void add_density(W& w, Mat3<S> h) const {
+  /// \param f  F, or its upper left part in the plane
+  template <class W, class S, int D>
+  void add_energy_of_gradient(W& w, const Mat<S, D, D>& f) const {
+    Mat3<S> h = less_identity(f);
     const W j = hyperelastic_detail::change_of_volume<W>(h);
     const auto possible = base(j) > P(-1.0);
     for (S& x : h.e) x = select(possible, x, S(0.0));
     static_cast<const Material&>(*this).add_energy(w, h, select(possible, j, W(0.0)));
     w += constant<W>(select(possible, P(0.0), P(std::numeric_limits<double>::infinity())));
-  }
-  template <class R, class M>
-  auto operator()(const R& r, const M& m) const {
-    const auto h = displacement_gradient(r, m);
-    std::decay_t<decltype(h(0, 0))> w(0.0);
-    add_density(w, h);
-    return w;
   }
 
   static std::vector<QuantityInfo> quantity_infos() {
@@ -114,18 +91,18 @@ struct Hyperelastic {
   template <class R, class M>
   std::array<P, 10> quantities(const R& r, const M& m) const {
     using S = Dual<P, 9>;
-    const Mat3<P> plain = displacement_gradient(r, m), f = identity<P, 3>() + plain;
-    Mat3<S> h;
+    const Mat3<P> h = less_identity(gradient(r, m)), f = identity<P, 3>() + h;
+    Mat3<S> variables;
     for (std::size_t i = 0; i < 9; ++i) {
-      h.e[i].v = plain.e[i];
-      h.e[i].d[i] = P(1.0);
+      variables.e[i].v = f.e[i];
+      variables.e[i].d[i] = P(1.0);
     }
     S w(0.0);
-    add_density(w, h);
+    add_energy_of_gradient(w, variables);
     const Mat3<P> sigma = (P(1.0) / determinant(f)) * (Mat3<P>{w.d} * transpose(f));
     const P mean = trace(sigma) * P(1.0 / 3);
     const P size2 = norm2(sigma - mean * identity<P, 3>());
-    Vec3<P> stretch = eigen(hyperelastic_detail::twice_green<P>(plain)).values;
+    Vec3<P> stretch = eigen(hyperelastic_detail::twice_green<P>(h)).values;
     for (int pass = 0; pass < 2; ++pass)
       for (int i = 0; i < 2; ++i) {
         const P larger = max(stretch[i], stretch[i + 1]), smaller = min(stretch[i], stretch[i + 1]);
@@ -135,6 +112,16 @@ struct Hyperelastic {
     using karcher::sqrt;
     for (P& x : stretch.e) x = sqrt(P(1.0) + x);
     return {sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2), sqrt(P(1.5) * size2), stretch[0], stretch[1], stretch[2]};
+  }
+
+ private:
+  /// H
+  template <class S, int D>
+  static Mat3<S> less_identity(const Mat<S, D, D>& f) {
+    Mat3<S> h;
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k) h(i, k) = i == k ? f(i, k) - 1.0 : f(i, k);
+    return h;
   }
 };
 

@@ -40,6 +40,7 @@ struct Place {
 struct Constants {
   ParameterValue thickness, mu, lambda, mu_c, internal_length;
   std::array<ParameterValue, 3> b;
+  std::array<ParameterValue, 2> prestretch;
 
   explicit Constants(const ParameterValues& values) {
     const auto get = [&](const char* key) {
@@ -53,8 +54,14 @@ struct Constants {
     mu_c = get("mu_c");
     internal_length = get("L_c");
     b = {get("b[0]"), get("b[1]"), get("b[2]")};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto found = values.find(fmt::format("prestretch[{}]", i));
+      prestretch[i] = found == values.end() ? ParameterValue(1.0) : found->second;
+    }
   }
-  std::array<const ParameterValue*, 8> all() const { return {&thickness, &mu, &lambda, &mu_c, &internal_length, &b[0], &b[1], &b[2]}; }
+  std::array<const ParameterValue*, 10> all() const {
+    return {&thickness, &mu, &lambda, &mu_c, &internal_length, &b[0], &b[1], &b[2], &prestretch[0], &prestretch[1]};
+  }
   bool vary() const {
     return std::ranges::any_of(all(), [](const ParameterValue* p) { return static_cast<bool>(p->function); });
   }
@@ -74,6 +81,18 @@ struct Constants {
     require(m.internal_length > 0, "L_c", m.internal_length, "positive");
     for (double c : m.b) require(c >= 0, "a coefficient of b", c, "zero or positive");
     return m;
+  }
+  bool prestretched() const {
+    return std::ranges::any_of(prestretch, [](const ParameterValue& p) { return p.function || p.constant != 1; });
+  }
+  std::array<double, 2> prestretch_at(const Vec3<double>& x, double t) const {
+    std::array<double, 2> e{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      e[i] = prestretch[i](x, t);
+      if (!(e[i] > 0) || !std::isfinite(e[i]))
+        throw InputError(fmt::format("cosserat-shell: prestretch = {:.6g} {}; it must be positive.", e[i], at(x)));
+    }
+    return e;
   }
 };
 
@@ -157,7 +176,10 @@ class ShellTerm final : public Term {
   void set_load_parameter(double t) override {
     if (t == input_.t) return;
     input_.t = t;
-    if (constants_.depend_on_t()) apply_constants();
+    if (!constants_.depend_on_t()) return;
+    if (std::ranges::any_of(constants_.prestretch, &ParameterValue::depends_on_t))
+      for (int b = 0; b < batch_count(); ++b) place(b);
+    apply_constants();
   }
 
  private:
@@ -223,15 +245,29 @@ class ShellTerm final : public Term {
                                        field(slot).space->region().name, input_.region.name));
         for (int node : nodes) batch.nodes[block++ * lanes_per_batch + lane] = node;
       }
+    }
+    place(batch_count() - 1);
+  }
+
+  /// The geometry of a batch at the current t.
+  void place(int b) {
+    const Kind& k = kind(b);
+    double* points = points_.data() + first_entry_[static_cast<std::size_t>(b)];
+    for (std::size_t lane = 0; lane < lanes_per_batch; ++lane) {
+      const Cell& entity = cell(batch(b).cells[lane]);
       const std::vector<GeometryJet> jets = reference_.at(entity, k.quadrature->points);
-      for (std::size_t p = 0; p < count; ++p) {
-        const SurfaceGeometry g = surface_geometry(jets[p]);
-        const double weight = k.quadrature->weights[p] * g.area;
-        const std::size_t place = first_place_.back() + p * lanes_per_batch + lane;
-        places_[place] = {g.curvature, weight};
+      for (std::size_t p = 0; p < jets.size(); ++p) {
+        SurfaceGeometry g = surface_geometry(jets[p]);
+        const std::size_t place = first_place_[static_cast<std::size_t>(b)] + p * lanes_per_batch + lane;
         if (constants_.vary()) positions_[place] = input_.reference_position ? geometry(*input_.mesh, entity, k.quadrature->points[p]).x : g.x;
-        shell::store_point(points_.data() + first_entry_.back() + p * static_cast<std::size_t>(shell::point_entries) * lanes_per_batch,
-                           static_cast<int>(lane), g.jacobian(), g.frame, {}, weight);
+        if (constants_.prestretched()) {
+          const CellFrame frame = cell_frame(jets[p], 2);
+          g = stretched(g, {frame.t[0], frame.t[1]}, constants_.prestretch_at(constants_.vary() ? positions_[place] : g.x, input_.t));
+        }
+        const double weight = k.quadrature->weights[p] * g.area;
+        places_[place] = {g.curvature, weight};
+        shell::store_point(points + p * static_cast<std::size_t>(shell::point_entries) * lanes_per_batch, static_cast<int>(lane), g.jacobian(),
+                           g.frame, {}, weight);
       }
     }
   }

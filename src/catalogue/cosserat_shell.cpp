@@ -1,6 +1,7 @@
 #include "karcher/energy/cosserat_shell.hpp"
 
 #include "catalogue/entry.hpp"
+#include "catalogue/prestretch.hpp"
 #include "karcher/assembly/shell_term.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rotation.hpp"
@@ -38,11 +39,13 @@ std::vector<Entry> cosserat_shell_entries() {
        .minimum = 0,
        .minimum_allowed = false},
       {.name = "b", .unit = "1", .description = "coefficients b1, b2, b3 of the curvature energy", .default_value = 1.0, .minimum = 0, .size = 3},
+      prestretch_parameter(),
   };
   e.choices = {{"coupling", {"default", "birsan-2021"}, "form of the membrane and bending energy; birsan-2021: the refined Wcoss of Birsan (2021)"}};
   e.parts = {"membrane", "bending", "curvature"};
   e.lame = true;
   e.stress_free = true;
+  e.prestretch = true;
   return {{e, [](const EnergyInfo& info, const TermInput& input) { return make_shell_term(term_info(info, input), input); }}};
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "catalogue/density_terms.hpp"
+#include "catalogue/prestretch.hpp"
 #include "catalogue/shell_quadrature.hpp"
 #include "karcher/assembly/nodal_normals.hpp"
 #include "karcher/manifold/euclidean.hpp"
@@ -46,9 +47,11 @@ class ReissnerMindlinTerm : public DensityTerm<VaryingDensity<ReissnerMindlin>, 
             throw InputError(fmt::format("The stress-free directors around ({:.6g}, {:.6g}, {:.6g}) are too far apart to have a mean.",
                                          karcher::lane(reference.x[0], lane), karcher::lane(reference.x[1], lane),
                                          karcher::lane(reference.x[2], lane)));
-        const DirectorStrains<T> e = director_strains(reference.tangent, std::get<1>(states).interpolation.jet());
-        for (std::size_t i = 0; i < 3; ++i) this->parameter(b, q, strains_begin + i) = e.bending[i];
-        for (std::size_t a = 0; a < 2; ++a) this->parameter(b, q, strains_begin + 3 + a) = e.shear[a];
+        const auto& d = std::get<1>(states).interpolation.jet();
+        const auto& m = reference.tangent;
+        const std::array<T, 6> strains{dot(m[0], d.d[0]), dot(m[1], d.d[1]),  dot(m[0], d.d[1]),
+                                       dot(m[1], d.d[0]), dot(m[0], d.value), dot(m[1], d.value)};
+        for (std::size_t i = 0; i < strains.size(); ++i) this->parameter(b, q, strains_begin + i) = strains[i];
       }
     }
   }
@@ -65,7 +68,7 @@ std::unique_ptr<Term> make_reissner_mindlin(const EnergyInfo& info, const TermIn
   choose_shell_quadrature(input);
   std::vector<std::string> keys = parameter_keys(info, input);
   const std::size_t strains_begin = keys.size();
-  for (const char* name : {"bending0[0]", "bending0[1]", "bending0[2]", "shear0[0]", "shear0[1]"}) {
+  for (const char* name : {"bending0[11]", "bending0[22]", "bending0[12]", "bending0[21]", "shear0[1]", "shear0[2]"}) {
     keys.emplace_back(name);
     input.parameters[name] = 0.0;
   }
@@ -97,11 +100,13 @@ std::vector<Entry> reissner_mindlin_entries() {
       {.name = "mu", .unit = "force/length^2", .description = "shear modulus", .default_value = {}, .minimum = 0, .minimum_allowed = false},
       {.name = "lambda", .unit = "force/length^2", .description = "first Lame parameter; 3 lambda + 2 mu > 0", .default_value = {}},
       {.name = "shear_correction", .unit = "1", .description = "k_s", .default_value = 5.0 / 6, .minimum = 0, .minimum_allowed = false},
+      prestretch_parameter(),
   };
   e.choices = {{"reference_director", {"normal", "initial"}, "d0: normal to the reference, or the initial values of the director"}};
   e.parts = {"membrane", "bending", "shear"};
   e.lame = true;
   e.stress_free = true;
+  e.prestretch = true;
   return {{e, &make_reissner_mindlin}};
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "karcher/solve/collectives.hpp"
@@ -22,6 +23,14 @@ double energy_of(const Term& term, const Configuration& u) {
       sum += result.trouble[lane] == Trouble::none ? result.energy[lane] : std::nan("");
   }
   return sum;
+}
+
+/// Whether the problem itself says that the reference is strained.
+bool prestretched(const TermSpec& term) {
+  return term.info.prestretch && std::ranges::any_of(std::array{"prestretch[0]", "prestretch[1]"}, [&](const char* key) {
+           const auto found = term.parameters.find(key);
+           return found != term.parameters.end() && (found->second.function || found->second.constant != 1);
+         });
 }
 
 /// The fields of a term in the stress-free configuration, enlarged about its middle.
@@ -63,7 +72,7 @@ void measure_reference(const Problem& problem, DiscreteProblem& model) {
     for (const double size : {1.0, 1.0 + stretch}) sums.push_back(energy_of(term, at_reference(problem, model, t, size)));
     sum_over_ranks(sums);
     model.reference_energies[t] = sums[0];
-    if (!(sums[0] > smallest_part * sums[1])) continue;
+    if (!(sums[0] > smallest_part * sums[1]) || prestretched(spec)) continue;
     std::string cause;
     const ReferenceSpec stress_free = reference(problem, *model.discretisation.mesh);
     for (std::size_t k = 0; k < spec.fields.size(); ++k) {

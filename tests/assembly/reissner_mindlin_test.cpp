@@ -23,7 +23,7 @@ constexpr double h = 0.2, mu = 1.3, lambda = 0.9, k_s = 0.8, plane = 2 * lambda 
 
 BodyProblem shell(std::shared_ptr<const Mesh> mesh, Rule rule, int order) {
   BodyProblem b(std::move(mesh), manifold_ops<Sphere<2>>(), rule, order);
-  b.input.parameters = {{"thickness", h}, {"mu", mu}, {"lambda", lambda}, {"shear_correction", k_s}};
+  b.input.parameters = {{"thickness", h}, {"mu", mu}, {"lambda", lambda}, {"shear_correction", k_s}, {"prestretch[0]", 1.0}, {"prestretch[1]", 1.0}};
   b.input.parameters["thickness"].function = [](const Point3& x, double) { return h + 0.03 * x[0]; };
   return b;
 }
@@ -101,8 +101,10 @@ struct PlainShell {
 TEST(ReissnerMindlin, HasTheDerivativesThatJetsInTheCoordinatesOfItsFieldsGive) {
   for (const Rule rule : {Rule::projection, Rule::geodesic}) {
     BodyProblem b = shell(surface("rectangle", 1), rule, 2);
-    std::vector<std::string> keys{"thickness", "mu", "lambda", "shear_correction"};
-    for (int i = 0; i < 5; ++i) {
+    std::vector<std::string> keys{"thickness", "mu", "lambda", "shear_correction", "prestretch[0]", "prestretch[1]"};
+    b.input.parameters["prestretch[0]"] = 1.1;
+    b.input.parameters["prestretch[1]"] = 0.8;
+    for (int i = 0; i < 6; ++i) {
       keys.push_back("strain" + std::to_string(i));
       b.input.parameters[keys.back()] = 0.1 * (i + 1);
     }
@@ -145,7 +147,7 @@ TEST(ReissnerMindlin, HasTheClosedFormsOfStretchBendingAndShear) {
     FieldJet<Sphere<2>, 2, double> n;
     n.value = d;
     n.d = {d1, d2};
-    return ReissnerMindlin<double>{h, mu, lambda, k_s, {}, {}}.parts(m, n);
+    return ReissnerMindlin<double>{h, mu, lambda, k_s, {1, 1}, {}, {}}.parts(m, n);
   };
   const Point3 e1{{1, 0, 0}}, e2{{0, 1, 0}}, e3{{0, 0, 1}};
   const double s = 1.2, green = 0.5 * (s * s - 1);

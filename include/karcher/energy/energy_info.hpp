@@ -81,6 +81,8 @@ struct EnergyInfo {
   bool load = false;               ///< belongs under [[loads]]; the name of its terms is its type with "-load" behind
   /// Vanishes in the stress-free configuration: where a field that moves is the reference position and the others are what Term::stress_free says.
   bool stress_free = false;
+  /// Has the parameters prestretch[i]; with others than 1 it has an energy there after all.
+  bool prestretch = false;
   /// A potential of the volume that a region encloses: a problem adds the parameters share[i] and origin[i] that make it one (problem/enclosure.hpp).
   bool enclosure = false;
   /// A potential only where the first field, of rotations, turns about one axis: a problem tells which (TermInput::free_axes).

@@ -31,4 +31,8 @@ struct SurfaceGeometry {
 /// \throws InputError with the place if the tangents are linearly dependent to rounding or not finite.
 SurfaceGeometry surface_geometry(const GeometryJet& jet);
 
+/// The surface whose lengths along the orthonormal tangents t_1, t_2 are stretch[0] and stretch[1] times those of g, in the same parametrisation and with the same normals:
+/// with P = sum_i stretch[i] t_i (x) t_i, tangents P a_a and curvature sym(b P^-1). A cylinder stretched around it has the larger radius.
+SurfaceGeometry stretched(const SurfaceGeometry& g, const std::array<Vec3<double>, 2>& t, const std::array<double, 2>& stretch);
+
 }  // namespace karcher

@@ -25,7 +25,8 @@ void kernel(benchmark::State& state, const std::string& type, Rule rule) {
     options.words["shape"] = "triangle";
   }
   BodyProblem p(std::make_shared<const Mesh>(generate(options)), director ? manifold_ops<Sphere<2>>() : manifold_ops<Rotation>(), rule, 2);
-  p.input.parameters = {{"thickness", 0.02}, {"mu", 1.0}, {"lambda", 1.0}, {"shear_correction", 1.0}, {"mu_c", 1.0}, {"L_c", 1e-3}, {"p", 1.0}, {"prestretch[0]", 1.0}, {"prestretch[1]", 1.0}};
+  p.input.parameters = {{"thickness", 0.02}, {"mu", 1.0}, {"lambda", 1.0},        {"shear_correction", 1.0}, {"mu_c", 1.0},
+                        {"L_c", 1e-3},       {"p", 1.0},  {"prestretch[0]", 1.0}, {"prestretch[1]", 1.0}};
   for (const char* name : {"A[0]", "A[1]", "A[2]", "K[0]", "K[1]", "K[2]", "b[0]", "b[1]", "b[2]"}) p.input.parameters[name] = 1.0;
   p.input.choices = {{"coupling", "default"}};
   p.make(type);

@@ -13,13 +13,14 @@
 
 #include "karcher/energy/body_strains.hpp"
 #include "karcher/interpolation/interpolation.hpp"
+#include "karcher/math/combination.hpp"
 #include "karcher/math/jet.hpp"
 
 namespace karcher {
 
 /// A density of the body strains in D directions.
 template <class Density, int D, class T>
-concept OfBodyStrains = requires(const Density& w, Jet<T, 6 * D>& sum, const BodyStrains<D, Dual<T, 6 * D>>& e) {
+concept OfBodyStrains = requires(const Density& w, Jet<T, 6 * D>& sum, const BodyStrains<D, Combination<T, 6 * D>>& e) {
   w.add_energy(sum, e);
 };
 
@@ -32,14 +33,14 @@ S of_body_strains(const Density& density, const std::array<Vec3<T>, static_cast<
   constexpr int N = 6 * D, L = 6 * (1 + D), w = 3 * (1 + D);
   using E = std::conditional_t<with_hessian, Jet<T, N>, Dual<T, N>>;
   const Mat3<T> rotation = rotation_matrix(q);
-  using Variable = Dual<T, N>;
+  using Variable = Combination<T, N>;
   BodyStrains<D, Variable> e;
   std::array<Vec3<T>, D> v;
   for (std::size_t a = 0; a < D; ++a) {
     v[a] = transpose_times(rotation, m[a]);
     for (int i = 0; i < 3; ++i) {
-      e.v[a][i] = chart_detail::variable(v[a][i], static_cast<int>(a) * 6 + i, static_cast<const Variable*>(nullptr));
-      e.u[a][i] = chart_detail::variable(u[a][i], static_cast<int>(a) * 6 + 3 + i, static_cast<const Variable*>(nullptr));
+      e.v[a][i] = Variable::variable(v[a][i], static_cast<int>(a) * 6 + i);
+      e.u[a][i] = Variable::variable(u[a][i], static_cast<int>(a) * 6 + 3 + i);
     }
   }
   E energy(0.0);

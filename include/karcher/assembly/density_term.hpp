@@ -124,6 +124,9 @@ class DensityTerm : public Term {
                                                          std::declval<const FieldJet<typename Interpolation::Manifold, D, T>&>()...));
   static constexpr bool placed =
       density_detail::Placed<DensityAtPoint, Reference, FieldJet<typename Interpolation::Manifold, D, T>...> || std::tuple_size_v<Quantities> != 0;
+  /// Whether W depends on the value of field f, not only on its derivatives; else 1, to leave out its rows.
+  template <std::size_t f>
+  static constexpr int first_row = f == 0 && F == 2 && D > 0 && (OfBodyStrains<DensityAtPoint, D, T> || OfDirectorStrains<DensityAtPoint, T>) ? 1 : 0;
   static constexpr bool of_gradient = [] {
     if constexpr (F == 1 && D > 0) {
       if constexpr (is_linear<M<0>>) return OfGradient<DensityAtPoint, M<0>::dim, D, T>;
@@ -190,6 +193,28 @@ class DensityTerm : public Term {
 
   using States = std::tuple<FieldState<Interpolation, D>...>;
 
+  /// Of the pairs of nodes (i of field f, j of field g), i <= j where f = g, the blocks A_i^T C A_j one after the other: [j][i][row][column].
+  struct Workspace {
+    States states;
+    std::vector<T> gradient;
+    std::array<std::array<std::vector<T>, F>, F> blocks;
+    std::tuple<std::vector<Mat<T, Interpolation::Manifold::dim, Interpolation::Manifold::dim>>...> second;
+
+    template <std::size_t f, std::size_t... g>
+    void begin_blocks(const KindData& kind, std::index_sequence<g...>) {
+      const auto size = [&](std::size_t other, int dims) {
+        const auto rows = static_cast<std::size_t>(kind.shapes[f].nodes), columns = static_cast<std::size_t>(kind.shapes[other].nodes);
+        return (f == other ? rows * (rows + 1) / 2 : f < other ? rows * columns : 0) * static_cast<std::size_t>(dims);
+      };
+      (blocks[f][g].assign(size(g, M<f>::dim * M<g>::dim), T(0.0)), ...);
+    }
+  };
+  /// Kept from batch to batch, since making it costs as much as a small element.
+  static Workspace& workspace() {
+    thread_local Workspace work;
+    return work;
+  }
+
   template <std::size_t f>
   MaskOf<T> gather(const Configuration& u, int b, States& states) const {
     return std::get<f>(states).gather(u, fields_[f], batches_.batch(b), batches_.kind(b), f);
@@ -238,15 +263,18 @@ class DensityTerm : public Term {
   template <std::size_t... f>
   void evaluate_impl(const Configuration& u, int b, Want want, BatchResult& out, std::index_sequence<f...> all) const {
     const KindData& kind = batches_.kind(b);
-    States states;
+    Workspace& work = workspace();
+    States& states = work.states;
     MaskOf<T> defined = T(0.0) < T(1.0);
     ((defined = defined & gather<f>(u, b, states)), ...);
 
     const auto n = static_cast<std::size_t>(kind.unknowns);
-    std::vector<T> gradient(want == Want::energy ? 0 : n, T(0.0)), hessian(want == Want::hessian ? n * n : 0, T(0.0));
+    work.gradient.assign(want == Want::energy ? 0 : n, T(0.0));
+    if (want == Want::hessian) {
+      (work.template begin_blocks<f>(kind, all), ...);
+      (std::get<f>(work.second).assign(static_cast<std::size_t>(kind.shapes[f].nodes * kind.shapes[f].nodes), {}), ...);
+    }
     const std::array<std::size_t, F> begin = unknowns_begin(kind);
-    auto second = std::tuple{std::vector<Mat<T, M<f>::dim, M<f>::dim>>(
-        want == Want::hessian ? static_cast<std::size_t>(kind.shapes[f].nodes * kind.shapes[f].nodes) : 0)...};
 
     T energy = T(0.0);
     for (int q = 0; q < kind.quadrature->size(); ++q) {
@@ -269,17 +297,16 @@ class DensityTerm : public Term {
         w.scale(weight);
         energy += w.v;
         for (int i = 0; i < L; ++i) covector[i] = w.gradient(i);
-        (add_rows<f>(states, kind, begin, w, hessian, all), ...);
-        (std::get<f>(states).interpolation.add_second_variation(std::get<f>(states).nodes.data(), part<f>(covector), std::get<f>(second).data()),
+        (add_rows<f>(work, kind, w, all), ...);
+        (std::get<f>(states).interpolation.add_second_variation(std::get<f>(states).nodes.data(), part<f>(covector), std::get<f>(work.second).data()),
          ...);
       }
-      (add_gradient<f>(states, kind, begin, covector, gradient), ...);
+      (add_gradient<f>(states, kind, begin, covector, work.gradient), ...);
     }
-    if (want == Want::hessian) (add_blocks<f>(kind, begin, std::get<f>(second), hessian), ...);
 
     report_lanes(energy, defined, out);
-    store_lanes(gradient, out.gradient);
-    store_lanes(hessian, out.hessian);
+    store_lanes(work.gradient, out.gradient);
+    if (want == Want::hessian) (store_rows<f>(work, kind, begin, out, all), ...);
   }
 
   /// Directions are axes: of space, or of the plane z = 0 in which the stress-free configuration lies.
@@ -386,41 +413,52 @@ class DensityTerm : public Term {
 
   /// A_i^T C A_j for the rows of field f and the columns of the fields from f on.
   template <std::size_t f, std::size_t... g>
-  static void add_rows(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w,
-                       std::vector<T>& hessian, std::index_sequence<g...>) {
-    (add_pair<f, g>(states, kind, begin, w, hessian), ...);
+  static void add_rows(Workspace& work, const KindData& kind, const Jet<T, L>& w, std::index_sequence<g...>) {
+    (add_pair<f, g>(work, kind, w), ...);
   }
   template <std::size_t f, std::size_t g>
-  static void add_pair(const States& states, const KindData& kind, const std::array<std::size_t, F>& begin, const Jet<T, L>& w,
-                       std::vector<T>& hessian) {
+  static void add_pair(Workspace& work, const KindData& kind, const Jet<T, L>& w) {
     if constexpr (g >= f) {
-      constexpr int kf = M<f>::dim, kg = M<g>::dim;
-      const auto n = static_cast<std::size_t>(kind.unknowns);
       const auto rows = static_cast<std::size_t>(kind.shapes[f].nodes), columns = static_cast<std::size_t>(kind.shapes[g].nodes);
-      Mat<T, local[f], local[g]> c;
-      for (int i = 0; i < local[f]; ++i)
-        for (int j = 0; j < local[g]; ++j) c(i, j) = w.hessian(offset(f) + i, offset(g) + j);
+      constexpr int above = first_row<f> * M<f>::dim, left = first_row<g> * M<g>::dim;
+      Mat<T, local[f] - above, local[g] - left> c;
+      for (int i = 0; i < c.rows(); ++i)
+        for (int j = 0; j < c.cols(); ++j) c(i, j) = w.hessian(offset(f) + above + i, offset(g) + left + j);
+      T* to = work.blocks[f][g].data();
       for (std::size_t j = 0; j < columns; ++j) {
-        const auto ca = std::get<g>(states).times_map(c, j);
+        const auto ca = std::get<g>(work.states).template times_map<first_row<g>>(c, j);
         for (std::size_t i = 0; i < (f == g ? j + 1 : rows); ++i) {
-          const auto block = std::get<f>(states).transposed_map_times(i, ca);
-          T* to = hessian.data() + (begin[f] + i * kf) * n + begin[g] + j * kg;
-          for (std::size_t r = 0; r < kf; ++r)
-            for (std::size_t s = 0; s < kg; ++s) to[r * n + s] += block(static_cast<int>(r), static_cast<int>(s));
+          const auto block = std::get<f>(work.states).template transposed_map_times<first_row<f>>(i, ca);
+          for (const T& x : block.e) *to++ += x;
         }
       }
     }
   }
-  template <std::size_t f>
-  static void add_blocks(const KindData& kind, const std::array<std::size_t, F>& begin, const std::vector<Mat<T, M<f>::dim, M<f>::dim>>& blocks,
-                         std::vector<T>& hessian) {
-    constexpr auto k = static_cast<std::size_t>(M<f>::dim);
-    const auto n = static_cast<std::size_t>(kind.unknowns), nodes = static_cast<std::size_t>(kind.shapes[f].nodes);
-    for (std::size_t i = 0; i < nodes; ++i)
-      for (std::size_t j = i; j < nodes; ++j)
-        for (std::size_t r = 0; r < k; ++r)
-          for (std::size_t s = 0; s < k; ++s)
-            hessian[(begin[f] + i * k + r) * n + begin[f] + j * k + s] += blocks[i * nodes + j](static_cast<int>(r), static_cast<int>(s));
+  template <std::size_t f, std::size_t... g>
+  static void store_rows(const Workspace& work, const KindData& kind, const std::array<std::size_t, F>& begin, BatchResult& out,
+                         std::index_sequence<g...>) {
+    (store_pair<f, g>(work, kind, begin, out), ...);
+  }
+  template <std::size_t f, std::size_t g>
+  static void store_pair(const Workspace& work, const KindData& kind, const std::array<std::size_t, F>& begin, BatchResult& out) {
+    if constexpr (g >= f) {
+      constexpr auto kf = static_cast<std::size_t>(M<f>::dim), kg = static_cast<std::size_t>(M<g>::dim);
+      const auto n = static_cast<std::size_t>(kind.unknowns);
+      const auto rows = static_cast<std::size_t>(kind.shapes[f].nodes), columns = static_cast<std::size_t>(kind.shapes[g].nodes);
+      const T* from = work.blocks[f][g].data();
+      for (std::size_t j = 0; j < columns; ++j)
+        for (std::size_t i = 0; i < (f == g ? j + 1 : rows); ++i) {
+          const std::size_t corner = (begin[f] + i * kf) * n + begin[g] + j * kg;
+          for (std::size_t r = 0; r < kf; ++r)
+            for (std::size_t s = 0; s < kg; ++s, ++from) {
+              if constexpr (f == g && !is_linear<M<f>>)
+                store_lanes(*from + std::get<f>(work.second)[i * rows + j](static_cast<int>(r), static_cast<int>(s)), corner + r * n + s,
+                            out.hessian);
+              else
+                store_lanes(*from, corner + r * n + s, out.hessian);
+            }
+        }
+    }
   }
 
   TermInfo info_;

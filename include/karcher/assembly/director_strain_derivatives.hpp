@@ -10,13 +10,14 @@
 
 #include "karcher/energy/director_strains.hpp"
 #include "karcher/interpolation/interpolation.hpp"
+#include "karcher/math/combination.hpp"
 #include "karcher/math/jet.hpp"
 
 namespace karcher {
 
 /// A density of the director strains.
 template <class Density, class T>
-concept OfDirectorStrains = requires(const Density& w, Jet<T, 8>& sum, const DirectorStrains<Dual<T, 8>>& e) {
+concept OfDirectorStrains = requires(const Density& w, Jet<T, 8>& sum, const DirectorStrains<Combination<T, 8>>& e) {
   w.add_energy(sum, e);
 };
 
@@ -30,14 +31,13 @@ S of_director_strains(const Density& density, const std::array<Vec3<T>, 2>& m, c
   constexpr int coordinates = 12;
   using E = std::conditional_t<with_hessian, Jet<T, strains>, Dual<T, strains>>;
   const DirectorStrains<T> at = director_strains(m, d);
-  using Variable = Dual<T, strains>;
-  const auto variable = [](const T& x, int i) { return chart_detail::variable(x, i, static_cast<const Variable*>(nullptr)); };
+  using Variable = Combination<T, strains>;
   DirectorStrains<Variable> e;
   for (std::size_t i = 0; i < 3; ++i) {
-    e.metric[i] = variable(at.metric[i], static_cast<int>(i));
-    e.bending[i] = variable(at.bending[i], 3 + static_cast<int>(i));
+    e.metric[i] = Variable::variable(at.metric[i], static_cast<int>(i));
+    e.bending[i] = Variable::variable(at.bending[i], 3 + static_cast<int>(i));
   }
-  for (std::size_t a = 0; a < 2; ++a) e.shear[a] = variable(at.shear[a], 6 + static_cast<int>(a));
+  for (std::size_t a = 0; a < 2; ++a) e.shear[a] = Variable::variable(at.shear[a], 6 + static_cast<int>(a));
   E energy(0.0);
   density.add_energy(energy, e);
   std::array<T, strains> f;

@@ -59,33 +59,35 @@ struct FieldState {
   void linearize() {
     if constexpr (!is_linear<M>) interpolation.linearize(nodes.data(), maps);
   }
-  /// c A_i
-  template <int R>
-  Mat<T, R, dim> times_map(const Mat<T, R, local>& c, std::size_t i) const {
+  /// c A_i. With `first` = 1, c has no columns for the value of a field in R^n, on which what it is of does not depend.
+  template <int first = 0, int R>
+  Mat<T, R, dim> times_map(const Mat<T, R, local - first * dim>& c, std::size_t i) const {
     if constexpr (!is_linear<M>) {
       return c * maps[i];
     } else {
+      const auto l = multiples<first>(i);
       Mat<T, R, dim> r;
       for (int row = 0; row < R; ++row)
         for (int x = 0; x < dim; ++x) {
-          T sum = T(weights.l[i]) * c(row, x);
-          for (int a = 0; a < D; ++a) sum += weights.dl[i][static_cast<std::size_t>(a)] * c(row, (1 + a) * dim + x);
+          T sum = l[0] * c(row, x);
+          for (std::size_t a = 1; a < l.size(); ++a) sum += l[a] * c(row, static_cast<int>(a) * dim + x);
           r(row, x) = sum;
         }
       return r;
     }
   }
-  /// A_i^T c
-  template <int C>
-  Mat<T, dim, C> transposed_map_times(std::size_t i, const Mat<T, local, C>& c) const {
+  /// A_i^T c, the same with the rows of c.
+  template <int first = 0, int C>
+  Mat<T, dim, C> transposed_map_times(std::size_t i, const Mat<T, local - first * dim, C>& c) const {
     if constexpr (!is_linear<M>) {
       return transpose_times(maps[i], c);
     } else {
+      const auto l = multiples<first>(i);
       Mat<T, dim, C> r;
       for (int x = 0; x < dim; ++x)
         for (int column = 0; column < C; ++column) {
-          T sum = T(weights.l[i]) * c(x, column);
-          for (int a = 0; a < D; ++a) sum += weights.dl[i][static_cast<std::size_t>(a)] * c((1 + a) * dim + x, column);
+          T sum = l[0] * c(x, column);
+          for (std::size_t a = 1; a < l.size(); ++a) sum += l[a] * c(static_cast<int>(a) * dim + x, column);
           r(x, column) = sum;
         }
       return r;
@@ -96,6 +98,16 @@ struct FieldState {
     Mat<T, local, 1> c;
     c.e = f.e;
     return column(transposed_map_times(i, c), 0);
+  }
+
+ private:
+  /// l_i, l_{i,1}, ..., from number `first` on.
+  template <int first>
+  std::array<T, static_cast<std::size_t>(1 + D - first)> multiples(std::size_t i) const {
+    std::array<T, static_cast<std::size_t>(1 + D - first)> l;
+    if constexpr (first == 0) l[0] = T(weights.l[i]);
+    for (std::size_t a = 0; a < D; ++a) l[a + 1 - first] = weights.dl[i][a];
+    return l;
   }
 };
 

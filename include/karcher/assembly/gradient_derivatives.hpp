@@ -8,25 +8,25 @@
 #include <vector>
 
 #include "karcher/interpolation/interpolation.hpp"
+#include "karcher/math/combination.hpp"
 #include "karcher/math/jet.hpp"
 #include "karcher/math/scalar.hpp"
 
 namespace karcher {
 
 /// A density with `template <class W, class S> void add_energy_of_gradient(W& w, const Mat<S, K, D>& f) const`, f_ia the derivative of component i along the axis a. The
-/// entries are variables, S a Dual<T, K D> without second derivatives, and enter W as those of energy/body_strains.hpp.
+/// entries are variables, S a Combination<T, K D>, and enter W as those of energy/body_strains.hpp.
 template <class Density, int K, int D, class T>
-concept OfGradient = requires(const Density& w, Jet<T, K * D>& sum, const Mat<Dual<T, K * D>, K, D>& f) {
+concept OfGradient = requires(const Density& w, Jet<T, K * D>& sum, const Mat<Combination<T, K * D>, K, D>& f) {
   w.add_energy_of_gradient(sum, f);
 };
 
 /// W, a Jet or a Dual in the entries of f, row by row.
 template <class W, int K, int D, class T, class Density>
 W of_gradient(const Density& density, const Mat<T, K, D>& f) {
-  using Variable = Dual<T, K * D>;
+  using Variable = Combination<T, K * D>;
   Mat<Variable, K, D> variables;
-  for (std::size_t i = 0; i < f.e.size(); ++i)
-    variables.e[i] = chart_detail::variable(f.e[i], static_cast<int>(i), static_cast<const Variable*>(nullptr));
+  for (std::size_t i = 0; i < f.e.size(); ++i) variables.e[i] = Variable::variable(f.e[i], static_cast<int>(i));
   W w(0.0);
   density.add_energy_of_gradient(w, variables);
   return w;

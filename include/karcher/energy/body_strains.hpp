@@ -5,7 +5,8 @@
 ///
 /// A density with `template <class W, class S> void add_energy(W& w, const BodyStrains<D, S>& e) const` is a density of them: its derivatives come from jets W in the
 /// 6 D strains and the closed derivatives of the strains (assembly/body_strain_derivatives.hpp), a fraction of the work of jets in the local coordinates of both
-/// fields. The strains are then variables, S a Dual<T, 6 D> without second derivatives; so they, their sums and multiples enter W by add_square and add_product only.
+/// fields. The strains are then variables, S a Combination<T, 6 D> (math/combination.hpp): they, their sums and multiples enter W by
+/// add_scaled, add_square and add_product only.
 
 #include <array>
 

@@ -80,7 +80,7 @@ struct CosseratPlate {
     add_product(area, v1[0], v2[1]);
     add_product(area, -v1[1], v2[0]);
     const auto possible = base(area) > P(0.0);
-    membrane += scaled(evaluate(plate_detail::ChangeOfArea{}, select(possible, area, W(1.0))), P(h * plane));
+    add_scaled(membrane, evaluate(plate_detail::ChangeOfArea{}, select(possible, area, W(1.0))), P(h * plane));
     membrane += constant<W>(select(possible, P(0.0), P(std::numeric_limits<double>::infinity())));
 
     // K_b has the rows (u1_2, u2_2), (-u1_1, -u2_1).
@@ -93,7 +93,7 @@ struct CosseratPlate {
     W square(0.0);  // L_c^2 |K|^2
     for (const Vec3<S>& u : e.u)
       for (int i = 0; i < 3; ++i) add_square(square, u[i], 2.0 * L_c * L_c);
-    curvature += scaled(evaluate(plate_detail::PowerOfSquares<P>{0.5 * (1.0 + p)}, square), P(h * mu));
+    add_scaled(curvature, evaluate(plate_detail::PowerOfSquares<P>{0.5 * (1.0 + p)}, square), P(h * mu));
   }
   template <class W, class S>
   void add_energy(W& w, const BodyStrains<2, S>& e) const {

@@ -25,7 +25,7 @@ std::string film(const std::string& type, int order, const std::string& rest) {
 const std::string strip_of_solid = R"toml([mesh]
 generate = "box"
 size = [10, 1, 1]
-cells = [20, 1, 4]
+cells = [12, 1, 2]
 shape = "hexahedron"
 [regions.corner]
 near = [0, 0, 0]

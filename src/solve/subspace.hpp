@@ -28,12 +28,13 @@ class Subspace {
   /// Of V^T H V.
   const Spectrum& spectrum() const { return spectrum_; }
 
-  /// Adds w, made M-orthonormal to the basis. False, and nothing is added, if that leaves less than SolverTuning::smallest_rest of w.
+  /// Adds w (ghosts filled), made M-orthonormal to the basis. False, and nothing is added, if that leaves less than SolverTuning::smallest_rest of w.
   bool expand(std::vector<double> w);
   /// Collective. across: coordinates of a vector to which the minimiser is orthogonal; may be empty.
   DenseStep minimise(double radius, std::span<const double> across) const;
+  /// Its ghosts are copies from their owners: what moves the nodes is the same to the last bit on all ranks.
   Step step_of(DenseStep dense) const;
-  /// V y and H V y; ghosts of H V y are filled, those of V y as far as the vectors of the basis had them.
+  /// V y and H V y, with ghosts, to rounding.
   std::vector<double> combine(std::span<const double> y) const { return combine(basis_, y); }
   std::vector<double> combine_products(std::span<const double> y) const { return combine(h_basis_, y); }
 

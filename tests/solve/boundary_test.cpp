@@ -64,10 +64,15 @@ TEST(Boundary, TheIncrementIsTheLogarithmInFixedComponentsOnly) {
 
 TEST(Boundary, TheUniformNormIsThatOfMovingAllNodesAsFarAsTheFarthest) {
   const Equator p([](int, int) { return true; });
-  std::vector<double> s(static_cast<std::size_t>(p.layout->local_dofs()), 0.0);
-  p.for_nodes([&](int x, std::size_t first) { s[first] = 0.3 * x, s[first + 1] = 0.4 * x; });
-  // The masses of a field of angles sum to 1, and the farthest node moves by 0.5 * 2.
-  EXPECT_NEAR(uniform_norm(*p.layout, step_mass(*p.layout), s), 1, 1e-14);
+  // The masses of a field of angles sum to 1.
+  for (const int farthest : {0, 1, 2}) {
+    std::vector<double> s(static_cast<std::size_t>(p.layout->local_dofs()), 0.0);
+    p.for_nodes([&](int x, std::size_t first) {
+      const double length = x == farthest ? 2 : 1;
+      s[first] = 0.3 * length, s[first + 1] = 0.4 * length;
+    });
+    EXPECT_NEAR(uniform_norm(*p.layout, step_mass(*p.layout), s), 1, 1e-14) << farthest;
+  }
 }
 
 TEST(Boundary, NodesThatAreWhollyFixedGetTheValuesThemselves) {

@@ -61,6 +61,13 @@ TEST(BallProblem, ReachesTheBoundaryAlongTheLowestEigenvectorInTheHardCase) {
   EXPECT_NEAR(step.decrease, 0.5 * (2 * radius * radius + 0.25 / 3 + 0.04 / 5), 1e-11);
 }
 
+TEST(BallProblem, ReachesTheBoundaryDownhillThoughTheSlopeIsFarBelowRounding) {
+  const Spectrum eigen = symmetric_eigen(3, {-2, 0, 0, 0, 1, 0, 0, 0, 3});
+  const auto along_lowest = [&](double slope) { return minimise_in_ball(eigen, std::vector<double>{slope, 0.5, -0.2}, 4).y[0]; };
+  EXPECT_LT(along_lowest(1e-18), -3.9);
+  EXPECT_EQ(along_lowest(-1e-18), -along_lowest(1e-18));
+}
+
 TEST(BallProblem, WithoutGradientFollowsNegativeCurvatureOnly) {
   const auto down = minimise_in_ball(symmetric_eigen(2, matrix_with({-1, 5}, 3)), std::vector<double>{0, 0}, 2);
   EXPECT_NEAR(down.decrease, 2, 1e-13);

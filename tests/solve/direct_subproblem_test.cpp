@@ -40,7 +40,13 @@ struct Problem {
       const double component = std::inner_product(x, x + n, scaled_gradient.begin(), 0.0);
       for (std::size_t i = 0; i < n; ++i) scaled_gradient[i] -= component * x[i];
     }
-    std::vector<double> h(n * n), errors = random_vector(static_cast<int>(n * n), seed + 2000);
+    make(noise, seed + 2000);
+  }
+  /// M^-1/2 H M^-1/2 and M^-1/2 g as given
+  Problem(std::vector<double> matrix, std::vector<double> g) : scaled(std::move(matrix)), scaled_gradient(std::move(g)) { make(0, 0); }
+  void make(double noise, unsigned seed) {
+    const std::size_t n = scaled_gradient.size();
+    std::vector<double> h(n * n), errors = random_vector(static_cast<int>(n * n), seed);
     for (std::size_t i = 0; i < n; ++i) mass.push_back(0.01 + 0.1 * static_cast<double>(i % 5));
     for (std::size_t i = 0; i < n; ++i) {
       gradient.push_back(std::sqrt(mass[i]) * scaled_gradient[i]);
@@ -55,6 +61,14 @@ struct Problem {
     subproblem =
         std::make_unique<DirectSubproblem>(SubproblemInput{d->exchange, d->matrix, fixed, local_mass, numbers, default_tuning, work, phases});
     subproblem->set(d->matrix, d->local(gradient), 0);
+  }
+  /// Another matrix of the same pattern: that of `other`, with its gradient.
+  void set(const Problem& other, double shift) {
+    scaled = other.scaled;
+    scaled_gradient = other.scaled_gradient;
+    gradient = other.gradient;
+    d->matrix.values = other.d->matrix.values;
+    subproblem->set(d->matrix, d->local(gradient), shift);
   }
   DenseStep reference(double radius) const {
     return minimise_in_ball(symmetric_eigen(static_cast<int>(mass.size()), scaled), scaled_gradient, radius);
@@ -135,6 +149,68 @@ TEST(DirectSubproblem, DoesNotLeaveItToRoundingWhichWayAStructureBuckles) {
     steps[run] = p.d->global(p.subproblem->step(3.0, default_tuning.trial).s);
   }
   for (std::size_t i = 0; i < 80; ++i) EXPECT_NEAR(steps[1][i], steps[0][i], 1e-6 * *std::max_element(steps[0].begin(), steps[0].end()));
+}
+
+TEST(DirectSubproblem, ReachesCauchysDecreaseForANewGradientWithoutAnyEffort) {
+  Problem p(spread(80, 1e-4, 1e6), 9);
+  const double radius = 1e-9;
+  const Effort none{.accuracy = 1, .expansions = 0, .refactorisations = 0};
+  for (unsigned seed : {1, 2, 3}) {
+    p.scaled_gradient = random_vector(80, seed);
+    for (std::size_t i = 0; i < 80; ++i) p.gradient[i] = std::sqrt(p.mass[i]) * p.scaled_gradient[i];
+    p.subproblem->set_gradient(p.d->local(p.gradient));
+    const double steepest = std::sqrt(std::inner_product(p.scaled_gradient.begin(), p.scaled_gradient.end(), p.scaled_gradient.begin(), 0.0));
+    EXPECT_GE(p.subproblem->step(radius, none).decrease, radius * steepest - 0.5e6 * radius * radius) << seed;
+  }
+}
+
+TEST(DirectSubproblem, FindsTheAsymmetricWayInWhichASymmetricStructureBuckles) {
+  // Unknowns 0 and 5, of the same mass, can be exchanged: gradient and mass are symmetric, the only direction of negative curvature, (1, -1), is not.
+  const std::size_t n = 20;
+  std::vector<double> matrix(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) matrix[i * (n + 1)] = 10 + static_cast<double>(i);
+  matrix[0] = matrix[5 * (n + 1)] = 4;
+  matrix[5] = matrix[5 * n] = 6;
+  Problem p(matrix, std::vector<double>(n, 1.0));
+  p.subproblem->find_negative_directions();
+  EXPECT_EQ(p.subproblem->negative_in_basis(), 1);
+  EXPECT_NEAR(p.subproblem->ritz_values().front(), -2, 1e-3);
+}
+
+TEST(DirectSubproblem, ShiftsTheNextMatrixByTheMultiplierAndByHalfOfItAfterAGoodStep) {
+  Problem p(spread(60, 1e-3, 1e3), 10);
+  const Step step = p.subproblem->step(1e-2, default_tuning.trial);
+  EXPECT_GT(step.multiplier, 1);
+  EXPECT_EQ(p.subproblem->next_shift(step, 0.74), step.multiplier);
+  EXPECT_EQ(p.subproblem->next_shift(step, 0.76), 0.5 * step.multiplier);
+}
+
+TEST(DirectSubproblem, KeepsItsShiftWhileItsBasisLacksDirectionsOfNegativeCurvature) {
+  auto eigenvalues = spread(60, 1e-2, 1e4);
+  eigenvalues[5] = -2;
+  Problem p(eigenvalues, 4, {5});
+  p.subproblem->set(p.d->matrix, p.d->local(p.gradient), 1.0);
+  Step accepted;
+  accepted.multiplier = 0.1;
+  EXPECT_EQ(p.subproblem->next_shift(accepted, 1), 1.0);
+  p.subproblem->find_negative_directions();
+  EXPECT_EQ(p.subproblem->negative_in_basis(), 1);
+  EXPECT_EQ(p.subproblem->next_shift(accepted, 1), 0.05);
+}
+
+TEST(DirectSubproblem, DoesNotSeekTheDirectionsOfNegativeCurvatureThatOnlyTheLastMatrixHad) {
+  // Of H + 1.5 M the last matrix has twelve, this one has one, which the gradient sees: nothing asks for another factorisation.
+  auto eigenvalues = spread(60, 1, 1e4);
+  eigenvalues[0] = -2;
+  const Problem next(eigenvalues, 4);
+  for (std::size_t k = 0; k < 12; ++k) eigenvalues[k] = -2 - 0.1 * static_cast<double>(k);
+  Problem p(eigenvalues, 4);
+  p.subproblem->set(p.d->matrix, p.d->local(p.gradient), 1.5);
+  p.set(next, 0.0);
+  const long before = p.work.factorisations;
+  const Step step = p.subproblem->step(3.0, {.accuracy = 1e-3, .expansions = 20, .refactorisations = 3});
+  EXPECT_NEAR(step.decrease, p.reference(3.0).decrease, 2e-3 * step.decrease);
+  EXPECT_EQ(p.work.factorisations, before);
 }
 
 TEST(DirectSubproblem, NeedsNoFactorisationForAnotherRadius) {

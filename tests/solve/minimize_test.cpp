@@ -317,6 +317,90 @@ TEST(Minimize, ARejectedStepLeavesTheBitsUnchanged) {
   EXPECT_EQ(before.values, p.u.values);
 }
 
+TEST(Minimize, AfterARejectedStepGoesDownTheSlopeOfTheAcceptedPoint) {
+  // Beyond 0.6 the energy is high and rises; the one correction that is allowed leads back to the start, and gains nothing. The next step is half as long.
+  OneUnknown p([](double x) { return x < 0.6 ? Local{x * x - x, 2 * x - 1, 1} : Local{10, 5, 1}; });
+  SolverOptions options;
+  options.initial_radius = 10;
+  options.max_corrections = 1;
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  const StepReport report = minimize(*p.functional, p.u, options, observers);
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  ASSERT_EQ(recorder.records.size(), 2u);
+  EXPECT_FALSE(recorder.records[0].accepted);
+  EXPECT_TRUE(recorder.records[1].accepted);
+  EXPECT_NEAR(p.x(), 0.5, 1e-12);
+}
+
+/// Sum over cells, at x = 0, 1, ..., of 1/2 k (u - 1)^2 at the left end, k from 1 to 10^6; at the right end of the last one k = 1.
+SmallProblem wells(int cells) {
+  const CellFunction well = [cells](const auto& u, const auto& x, double, double* g, double* h) {
+    const double a = *u[0] - 1, b = *u[1] - 1, k = std::pow(1e6, x[0] / cells), last = x[0] > cells - 1.5 ? 1 : 0;
+    if (g) g[0] = k * a, g[1] = last * b;
+    if (h) h[0] = k, h[3] = last;
+    return CellValue{0.5 * k * a * a + 0.5 * last * b * b};
+  };
+  std::vector<double> start;
+  for (int i = 0; i <= cells; ++i) start.push_back(std::sin(5.0 * i));
+  return {cells, manifold_by_name("R1"), well, start};
+}
+
+TEST(Minimize, AStepThatTheRadiusDoesNotCutIsAsAccurateAsNewtonsWhateverTheShift) {
+  // The first step is cut, so the second matrix is shifted.
+  SmallProblem p = wells(30);
+  SolverOptions options;
+  options.initial_radius = 1e-3;
+  options.max_corrections = 0;
+  options.gradient_tolerance = 1e-12;
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  minimize(*p.functional, p.u, options, observers);
+  ASSERT_GE(recorder.records.size(), 2u);
+  EXPECT_GT(recorder.records[0].shift, 0);
+  EXPECT_EQ(recorder.records[1].shift, 0);
+  EXPECT_LT(recorder.records[1].gradient_norm, 1e-5 * recorder.records[0].gradient_norm);
+}
+
+TEST(Minimize, TheFirstStepAfterAMoveOfTheBoundaryFromAnEquilibriumIsNoLongerThanTheMove) {
+  const CellFunction stiffening = [](const auto& u, const auto& x, double, double* g, double* h) {
+    const double r = *u[1] - *u[0], k = 100 * x[0];
+    if (g) g[1] = r + k * r * r * r, g[0] = -g[1];
+    if (h) h[0] = h[3] = 1 + 3 * k * r * r, h[1] = h[2] = -h[0];
+    return CellValue{0.5 * r * r + 0.25 * k * r * r * r * r};
+  };
+  for (const double initial_radius : {0.0, 0.7}) {
+    SmallProblem p(4, manifold_by_name("R1"), stiffening, std::vector<double>(5, 0.0), fixed_ends(4));
+    Configuration boundary = p.u;
+    for (int node = 0; node < 5; ++node)
+      if (p.field.space->position(node)[0] > 3.5) boundary.values[0][static_cast<std::size_t>(node)] = 0.4;
+    SolverOptions options;
+    options.max_corrections = 0;
+    options.initial_radius = initial_radius;
+    Minimizer minimizer(*p.functional, options);
+    Minimizer::Task task;
+    task.boundary = &boundary;
+    Recorder recorder;
+    Observer* observers[] = {&recorder};
+    minimizer.run(p.u, task, observers);
+    ASSERT_FALSE(recorder.records.empty());
+    // Lengths are counted in halves of the diagonal 4; a radius that is asked for is taken.
+    EXPECT_NEAR(recorder.records[0].radius, initial_radius > 0 ? initial_radius : 0.2, 1e-14);
+  }
+}
+
+TEST(Minimize, TheWorkOfARunIsThatOfThisRunAlone) {
+  SmallProblem p(20, manifold_by_name("R1"), rosenbrock, std::vector<double>(21, -1.2));
+  Minimizer minimizer(*p.functional, {});
+  const StepReport first = minimizer.run(p.u, {}, {});
+  EXPECT_GT(first.work.gradients, 5);
+  // From where the first run ended there is nothing to do but to see that.
+  const StepReport second = minimizer.run(p.u, {}, {});
+  EXPECT_EQ(second.iterations, 0);
+  EXPECT_EQ(second.work.gradients, 1);
+  EXPECT_LE(second.work.factorisations, 1);
+}
+
 TEST(Minimize, GivesTheSameBitsTwice) {
   // On several ranks MUMPS adds contributions in the order in which they arrive: there, the same to rounding.
   const double tolerance = world_size() == 1 ? 0 : 1e-9;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -121,6 +122,21 @@ TEST(Subspace, MinimisesInItsSpanOnlyAndAcrossAGivenVector) {
     EXPECT_LE(fall(x), across.decrease);
   }
   EXPECT_GT(across.decrease, 0);
+}
+
+TEST(Subspace, GhostsOfAStepAreTheBitsOfTheirOwnersThoughTheRanksRoundedItsVectorsDifferently) {
+  Problem p;
+  const auto owned = static_cast<std::size_t>(p.d.exchange.owned_dofs());
+  for (unsigned k = 0; k < 3; ++k) {
+    std::vector<double> w = p.d.local(random_vector(Problem::n, 40 + k));
+    for (std::size_t i = owned; i < w.size(); ++i) w[i] *= 1 + 1e-14;
+    p.space.expand(std::move(w));
+  }
+  const std::vector<double> s = p.space.step_of(p.space.minimise(0.05, {})).s;
+  std::vector<double> expected = s;
+  std::fill(expected.begin() + static_cast<std::ptrdiff_t>(owned), expected.end(), 0.0);
+  p.d.exchange.update_ghosts(expected);
+  EXPECT_EQ(s, expected);
 }
 
 TEST(Subspace, KnowsItsProductsWithTheMatrix) {

@@ -109,10 +109,11 @@ class Copy:
     def test(self, fault):
         """What catches the fault; None if nothing does."""
         for test in fault["tests"]:
-            program = [self.build / "tests" / test, "--gtest_fail_fast"] + ([f"--gtest_filter={fault['filter']}"] if "filter" in fault else [])
+            program = [self.build / "tests" / test, "--gtest_color=no"] + ([f"--gtest_filter={fault['filter']}"] if "filter" in fault else [])
             for ranks in [1, *fault["ranks"]]:
                 where = f"{test} on {ranks} rank{'' if ranks == 1 else 's'}"
-                code = self.run((["mpiexec", "-n", str(ranks)] if ranks > 1 else []) + program, seconds=LONGEST_TEST)
+                # A test may fail on one rank alone: if that rank ended there, the others would wait for it in the next test.
+                code = self.run((["mpiexec", "-n", str(ranks)] + program if ranks > 1 else program + ["--gtest_fail_fast"]), seconds=LONGEST_TEST)
                 if code is None:
                     return f"{where} does not end"
                 if code:

@@ -192,6 +192,22 @@ void expect_taylor_slopes(Rule rule) {
 
 }  // namespace
 
+TEST(DeadLoadTerm, FollowsTheLoadParameterWhereItIsAFunctionOfIt) {
+  MapProblem p(moved_mesh("rectangle", {{"cells", {3, 3}}}, "triangle"), manifold_ops<Euclidean<2>>(), Rule::projection, 1);
+  p.u.values[0].assign(static_cast<std::size_t>(2 * p.space().node_count()), 1.0);
+  p.input.parameters["value[0]"] = 0.25;
+  ParameterValue& growing = p.input.parameters["value[1]"];
+  growing.function = [](const Vec3<double>& x, double t) { return x[0] + t; };
+  growing.depends_on_t = true;
+  p.input.t = 1;
+  p.make("volume-load");
+  EXPECT_NEAR(p.functional->energy(p.u).energy, -1.75, 1e-13);
+  p.functional->set_load_parameter(3);
+  EXPECT_NEAR(p.functional->energy(p.u).energy, -3.75, 1e-13);
+  p.functional->set_load_parameter(1);
+  EXPECT_NEAR(p.functional->energy(p.u).energy, -1.75, 1e-13);
+}
+
 TEST(DensityTerm, DerivativesPassTheTaylorTestThroughTheRetraction) {
   for (Rule rule : {Rule::projection, Rule::geodesic}) {
     expect_taylor_slopes<Sphere<1>>(rule);

@@ -191,6 +191,19 @@ TEST(ReferencePoint, IsThatOfTheStressFreeConfigurationWhereItIsNotTheMesh) {
   EXPECT_NEAR(m[2], 0, 1e-10);
 }
 
+TEST(ReferencePoint, IsNotThePlaceOfParametersWhichAreFunctionsOfTheMesh) {
+  // The load x on u = 1, on the unit square and where the same square, moved away, is free of stress.
+  MapProblem p = on(moved_mesh("rectangle", {{"cells", {4, 4}}}, "triangle"));
+  p.u.values[0].assign(p.u.values[0].size(), 1.0);
+  p.input.parameters["value[0]"].function = [](const Point3& x, double) { return x[0]; };
+  for (const bool moved : {false, true}) {
+    if (moved) p.input.reference_position = [](const Point3& x) { return Point3{{x[0] + 7, x[1], 3}}; };
+    p.input.reference_order = 1;
+    p.make("volume-load");
+    EXPECT_NEAR(p.functional->energy(p.u).energy, -0.5, 1e-14) << moved;
+  }
+}
+
 /// The shell's density on the generic kernel: jets and the surface of the seam, against the closed-form kernel.
 TEST(ReferencePoint, LetsTheCosseratDensityRunInTheGenericKernelWithTheNumbersOfTheFastOne) {
   for (const Rule rule : {Rule::projection, Rule::geodesic})

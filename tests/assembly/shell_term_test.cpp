@@ -370,7 +370,7 @@ TEST(ShellTerm, WarnsWhereTheDensityIsNotPositiveDefinite) {
   thin.input.parameters["mu_c"] = 0.0;
   EXPECT_TRUE(thin.make().warnings().empty());
   // As mu_c falls to 0 the twisting block loses a positive eigenvalue at about h kappa = 1.4 where the curvatures are as 1 to 2.
-  Shell bowl(mesh_of("rectangle", {{"lower", {-0.01, -0.01}}, {"size", {0.02, 0.02}}, {"cells", {2, 2}}}), 2, 2);
+  Shell bowl(mesh_of("rectangle", {{"lower", {-0.01, -0.01}}, {"size", {0.02, 0.02}}, {"cells", {1, 3}}}), 2, 2);
   bowl.input.reference_position = [](const Point3& x) { return Point3{{x[0], x[1], 0.27 * x[0] * x[0] + 0.5 * x[1] * x[1]}}; };
   bowl.input.parameters["mu_c"] = 1e-12;
   bowl.input.parameters["L_c"] = 1e-3;
@@ -379,7 +379,7 @@ TEST(ShellTerm, WarnsWhereTheDensityIsNotPositiveDefinite) {
   bowl.input.parameters["thickness"] = 1.9;
   bowl.make();
   ASSERT_EQ(bowl.term->warnings().size(), 1u);
-  EXPECT_NE(bowl.term->warnings()[0].find("not positive definite in 8 cells"), std::string::npos) << bowl.term->warnings()[0];
+  EXPECT_NE(bowl.term->warnings()[0].find("not positive definite in 6 cells"), std::string::npos) << bowl.term->warnings()[0];
 }
 
 TEST(ShellTerm, WarnsWhereHardlyAnythingHoldsTheDrillingRotation) {

@@ -138,10 +138,34 @@ TEST(Space, CarriesThePartsOfItsCellsAndNothingElse) {
   EXPECT_TRUE(frame.entity_nodes(sheet->cells[0]).empty());
 }
 
+TEST(Space, CarriesNoDiagonalsAndNoHalvesOfFacesThoughItHasTheirCorners) {
+  const auto solid = box("hexahedron"), sheet = make("rectangle", {{"cells", {2, 2}}}, "quadrilateral");
+  const auto part = [](const Mesh& mesh, CellKind kind, const std::vector<int>& corners) {
+    Cell entity;
+    entity.kind = kind;
+    for (const int v : corners) entity.nodes.push_back(mesh.cells[0].nodes[static_cast<std::size_t>(v)]);
+    return entity;
+  };
+  const Space in_space(solid, solid->region("all"), 1), in_plane(sheet, sheet->region("all"), 1);
+  EXPECT_EQ(in_plane.entity_nodes(part(*sheet, CellKind::line, {0, 1})).size(), 2u);
+  EXPECT_EQ(in_space.entity_nodes(part(*solid, CellKind::line, {2, 6})).size(), 2u);
+  EXPECT_EQ(in_space.entity_nodes(part(*solid, CellKind::quadrilateral, {2, 3, 7, 6})).size(), 4u);
+  EXPECT_TRUE(in_plane.entity_nodes(part(*sheet, CellKind::line, {0, 2})).empty());
+  EXPECT_TRUE(in_plane.entity_nodes(part(*sheet, CellKind::triangle, {0, 1, 2})).empty());
+  EXPECT_TRUE(in_space.entity_nodes(part(*solid, CellKind::line, {0, 2})).empty());
+  EXPECT_TRUE(in_space.entity_nodes(part(*solid, CellKind::line, {0, 6})).empty());
+  EXPECT_TRUE(in_space.entity_nodes(part(*solid, CellKind::triangle, {0, 1, 2})).empty());
+  EXPECT_TRUE(in_space.entity_nodes(part(*solid, CellKind::quadrilateral, {0, 1, 7, 6})).empty());
+}
+
 TEST(Space, RefusesOtherOrdersAndEmptyRegions) {
   const auto mesh = box("hexahedron");
-  EXPECT_THROW(Space(mesh, mesh->region("all"), 4), InputError);
-  EXPECT_THROW(Space(mesh, mesh->region("all"), 0), InputError);
+  for (const int order : {0, 4}) try {
+      Space(mesh, mesh->region("all"), order);
+      ADD_FAILURE() << order;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.what(), "A field has order 1, 2 or 3, not " + std::to_string(order) + ".");
+    }
   EXPECT_THROW(Space(mesh, Region{"nothing", 2, {}}, 1), InputError);
 }
 

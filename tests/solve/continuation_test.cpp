@@ -133,18 +133,20 @@ TEST(Continuation, AdaptiveStepsThatTakeMoreThanFiveIterationsAreNotFollowedByAL
 }
 
 TEST(Continuation, ARestOfTheRangeThatIsTooShortIsTakenAlong) {
-  // Ten steps of 1/10 do not add up to 1 in floating point.
-  Pull pull(4);
-  Recorder recorder;
-  Observer* observers[] = {&recorder};
-  ContinuationOptions options;
-  options.adaptive = true;
-  options.steps = 10;
-  options.from = 0.25;
-  options.to = 0.75;
-  EXPECT_EQ(run_continuation(*pull.p.functional, pull.p.u, pull.boundary(1), options, {}, observers).status, Status::converged);
-  ASSERT_EQ(recorder.begun.size(), 10u);
-  EXPECT_EQ(recorder.begun.back(), 0.75);
+  // Ten steps of a tenth do not add up in floating point: those of the first range fall short of its end, those of the second go beyond it.
+  for (const auto& [from, to] : {std::pair{0.0, 1.0}, {0.25, 0.75}}) {
+    Pull pull(4);
+    Recorder recorder;
+    Observer* observers[] = {&recorder};
+    ContinuationOptions options;
+    options.adaptive = true;
+    options.steps = 10;
+    options.from = from;
+    options.to = to;
+    EXPECT_EQ(run_continuation(*pull.p.functional, pull.p.u, pull.boundary(1), options, {}, observers).status, Status::converged);
+    ASSERT_EQ(recorder.begun.size(), 10u);
+    EXPECT_EQ(recorder.begun.back(), to);
+  }
 }
 
 TEST(Continuation, GoesOnWhereItWasBrokenOffWithTheLengthThatAdaptiveStepsHad) {

@@ -11,6 +11,7 @@
 #include "karcher/solve/exchange.hpp"
 #include "solve/cell_functions.hpp"
 #include "solve/few_unknowns.hpp"
+#include "solve/tuning.hpp"
 
 namespace karcher {
 namespace {
@@ -333,6 +334,14 @@ TEST(Minimize, AfterARejectedStepGoesDownTheSlopeOfTheAcceptedPoint) {
   EXPECT_NEAR(p.x(), 0.5, 1e-12);
 }
 
+std::vector<char> right_end_fixed(int cells) {
+  std::vector<char> fixed = fixed_ends(cells);
+  const auto mesh = testing::line_mesh(cells);
+  const Space space(mesh, mesh->regions.at("all"), 1);
+  for (int node = 0; node <= cells; ++node) fixed[static_cast<std::size_t>(node)] = space.position(node)[0] > cells - 0.5;
+  return fixed;
+}
+
 /// Sum over cells, at x = 0, 1, ..., of 1/2 k (u - 1)^2 at the left end, k from 1 to 10^6; at the right end of the last one k = 1.
 SmallProblem wells(int cells) {
   const CellFunction well = [cells](const auto& u, const auto& x, double, double* g, double* h) {
@@ -360,6 +369,36 @@ TEST(Minimize, AStepThatTheRadiusDoesNotCutIsAsAccurateAsNewtonsWhateverTheShift
   EXPECT_GT(recorder.records[0].shift, 0);
   EXPECT_EQ(recorder.records[1].shift, 0);
   EXPECT_LT(recorder.records[1].gradient_norm, 1e-5 * recorder.records[0].gradient_norm);
+}
+
+TEST(Minimize, AMatrixIsShiftedToWhereTheLastStepEndedSoThatOneFactorisationIsEnoughForAStep) {
+  // The sum of 1/4 k (u^2 - 1)^2, k from 1 to 100, near u = 0: thirty directions of negative curvature, and a radius that cuts every step.
+  const int cells = 30, steps = 10;
+  const CellFunction double_well = [](const auto& u, const auto& x, double, double* g, double* h) {
+    const double k = std::pow(1e2, x[0] / cells), a = *u[0], r = a * a - 1;
+    if (g) g[0] = k * a * r;
+    if (h) h[0] = k * (3 * a * a - 1);
+    return CellValue{0.25 * k * r * r};
+  };
+  std::vector<double> start;
+  for (int i = 0; i <= cells; ++i) start.push_back(0.1 * std::sin(5.0 * i + 1));
+  SmallProblem p(cells, manifold_by_name("R1"), double_well, start, right_end_fixed(cells));
+  SolverOptions options;
+  options.initial_radius = 1e-5;
+  options.max_corrections = 0;
+  options.max_iterations = steps;
+  SolverTuning tuning;
+  tuning.exact = 0;  // asks for no signs of the matrix on the way
+  Recorder recorder;
+  Observer* observers[] = {&recorder};
+  const StepReport report = Minimizer(*p.functional, options, tuning).run(p.u, {}, observers);
+  ASSERT_EQ(recorder.records.size(), static_cast<std::size_t>(steps));
+  for (const IterationRecord& r : recorder.records) {
+    EXPECT_TRUE(r.accepted);
+    EXPECT_GT(r.shift, 0);
+  }
+  // Not so the first step, of which nothing is known, and the signs at the end.
+  EXPECT_LE(report.work.factorisations, steps + 5);
 }
 
 TEST(Minimize, TheFirstStepAfterAMoveOfTheBoundaryFromAnEquilibriumIsNoLongerThanTheMove) {

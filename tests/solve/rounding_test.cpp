@@ -6,13 +6,17 @@
 #include <limits>
 
 #include "solve/distributed.hpp"
+#include "solve/few_unknowns.hpp"
 #include "solve/random_matrix.hpp"
 #include "solve/small_problem.hpp"
+#include "solve/system.hpp"
 
 namespace karcher {
 namespace {
 
 using testing::Distributed;
+using testing::Local;
+using testing::OneUnknown;
 using testing::random_vector;
 using testing::SmallProblem;
 
@@ -46,6 +50,24 @@ TEST(Rounding, OfAGradientIsThatOfTheProductsOfStiffnessesAndValues) {
     }
     EXPECT_NEAR(found.gradient_norm, std::sqrt(norm), 1e-13 * epsilon);
     EXPECT_NEAR(found.energy, energy, 1e-13 * epsilon * epsilon);
+  }
+}
+
+TEST(Rounding, OfTheGradientAlongAStepAndOfTheStrainsIsWhatADecreaseMustExceed) {
+  // x = 3 at the end of a spring of stiffness 1e6, at an energy that is chosen.
+  for (const double energy : {0.0, 2.0}) {
+    OneUnknown p([=](double) { return Local{energy, 1, 1e6}; }, 3);
+    System system(*p.functional, {}, default_tuning);
+    Iterate x;
+    x.u = p.u;
+    ASSERT_TRUE(system.linearise(x, 0.0));
+    const double force = epsilon * 1e6 * 3, strain = 0.5 * epsilon * epsilon * 1e6 * 9;
+    for (const double length : {0.0, 1.0, 1e3}) {
+      std::vector<double> s(static_cast<std::size_t>(p.layout->local_dofs()));
+      for (std::size_t d = 0; d < s.size(); ++d) s[d] = system.fixed[d] ? 0 : length;
+      const double expected = 10 * (4e-15 * energy + strain) + 2 * std::sqrt(force * length * force * length + 4 * energy * strain);
+      EXPECT_NEAR(system.significant(x, s), expected, 1e-12 * expected) << energy << " " << length;
+    }
   }
 }
 

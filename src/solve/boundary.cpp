@@ -73,8 +73,8 @@ double uniform_norm(const Layout& layout, std::span<const double> mass, std::spa
     double farthest = 0, weight = 0;
     for (int node : layout.local_nodes(f)) {
       const auto first = static_cast<std::size_t>(layout.first_dof(f, node));
-      double here = 0;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) here += s[first + k] * s[first + k];
+      double here = 0;  // in units of the first component, which need not be those of the others
+      for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) here += mass[first + k] / mass[first] * s[first + k] * s[first + k];
       farthest = std::max(farthest, here);
       if (layout.owns(f, node)) weight += mass[first];
     }

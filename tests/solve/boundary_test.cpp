@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "karcher/manifold/euclidean.hpp"
+#include "karcher/manifold/product.hpp"
+#include "karcher/manifold/rotation.hpp"
 #include "karcher/solve/exchange.hpp"
 #include "karcher/solve/norm.hpp"
 #include "solve/cell_functions.hpp"
@@ -73,6 +76,19 @@ TEST(Boundary, TheUniformNormIsThatOfMovingAllNodesAsFarAsTheFarthest) {
     });
     EXPECT_NEAR(uniform_norm(*p.layout, step_mass(*p.layout), s), 1, 1e-14) << farthest;
   }
+}
+
+TEST(Boundary, TheUniformNormCountsLengthsInHalvesOfTheDomainAndAnglesInRadiansAlsoInOneField) {
+  const int cells = 8;
+  std::vector<double> start;
+  for (int i = 0; i <= cells; ++i) start.insert(start.end(), {1.0 * i, 0, 0, 1, 0, 0, 0});
+  const SmallProblem p(cells, manifold_ops<Product<Euclidean<3>, Rotation>>(), nothing, start);
+  std::vector<double> s(static_cast<std::size_t>(p.layout->local_dofs()), 0.0);
+  for (int node : p.layout->local_nodes(0)) {
+    const auto first = static_cast<std::size_t>(p.layout->first_dof(0, node));
+    s[first + 1] = 2, s[first + 3] = 0.75;
+  }
+  EXPECT_NEAR(uniform_norm(*p.layout, step_mass(*p.layout), s), std::hypot(2.0 / 4, 0.75), 1e-14);
 }
 
 TEST(Boundary, NodesThatAreWhollyFixedGetTheValuesThemselves) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "karcher/assembly/selective_integration.hpp"
 #include "karcher/assembly/shell_kernel.hpp"
 #include "karcher/error.hpp"
 #include "karcher/manifold/euclidean.hpp"
@@ -122,7 +123,9 @@ class ShellTerm final : public Term {
       : info_(std::move(info)),
         input_(std::move(input)),
         constants_(input_.parameters),
-        reference_(*input_.mesh, input_.reference_position, input_.reference_order) {
+        reference_(*input_.mesh, input_.reference_position, input_.reference_order),
+        factors_(selective_factors(input_.part)) {
+    if (input_.part != SelectivePart::whole) diameters_ = cell_diameters(input_);
     const auto choice = input_.choices.find("coupling");
     if (choice != input_.choices.end() && choice->second == "birsan-2021") coupling_ = ShellCoupling::birsan_2021;
     info_.quantities = {{"strain", "1", 1, "size of the strains, |E| + h/2 |E b + c K|, root mean squares over the cell", 0.2}};
@@ -151,15 +154,17 @@ class ShellTerm final : public Term {
   std::vector<std::array<double, lanes_per_batch>> batch_part_energies(const Configuration& u, int b) const override {
     std::vector<std::array<double, lanes_per_batch>> parts;
     for (const ShellParts& part : {ShellParts{true, false, false}, {false, true, false}, {false, false, true}})
-      parts.push_back(integrals(u, b, [&](std::size_t place) {
-        return shell_form(places_[place].curvature[0], places_[place].curvature[1], material(place, {}), coupling_, part);
+      parts.push_back(integrals(u, b, [&](std::size_t place, int c) {
+        const auto& k = places_[place].curvature;
+        const ShellMaterial<double> m = material(place, {});
+        return counted(shell_form(k[0], k[1], m, coupling_, part), part.membrane, m, c);
       }));
     return parts;
   }
 
   std::vector<std::array<double, lanes_per_batch>> batch_quantities(const Configuration& u, int b) const override {
-    const auto membrane = integrals(u, b, [](std::size_t) { return strain_square<double>(); });
-    const auto bending = integrals(u, b, [&](std::size_t place) {
+    const auto membrane = integrals(u, b, [](std::size_t, int) { return strain_square<double>(); });
+    const auto bending = integrals(u, b, [&](std::size_t place, int) {
       return bending_strain_square(places_[place].curvature[0], places_[place].curvature[1], material(place, {}).thickness);
     });
     std::array<double, lanes_per_batch> strain{};
@@ -281,6 +286,26 @@ class ShellTerm final : public Term {
     return constants_(constants_.vary() ? positions_[place] : otherwise, input_.t);
   }
 
+  /// What this part of selective integration counts of the form of the membrane (with transverse shear) and of the others in cell c.
+  ShellForm<double> counted(ShellForm<double> f, bool membrane, const ShellMaterial<double>& m, int c) const {
+    if (input_.part == SelectivePart::whole) return f;
+    const double relative = m.thickness / diameters_[static_cast<std::size_t>(c)], alpha = std::min(1.0, relative * relative);
+    const double in_plane = membrane ? factors_.membrane_constant + factors_.membrane_slope * alpha : factors_.rest;
+    const double transverse = membrane ? factors_.shear_constant + factors_.shear_slope * alpha : factors_.rest;
+    for (double& x : f.a) x *= in_plane;
+    for (double& x : f.b) x *= in_plane;
+    for (double& x : f.s) x *= transverse;
+    return f;
+  }
+  ShellForm<double> counted_sum(const std::array<double, 2>& k, const ShellMaterial<double>& m, int c) const {
+    ShellForm<double> sum = counted(shell_form(k[0], k[1], m, coupling_, {true, false, false}), true, m, c);
+    const ShellForm<double> others = counted(shell_form(k[0], k[1], m, coupling_, {false, true, true}), false, m, c);
+    for (std::size_t i = 0; i < sum.a.size(); ++i) sum.a[i] += others.a[i];
+    for (std::size_t i = 0; i < sum.b.size(); ++i) sum.b[i] += others.b[i];
+    for (std::size_t i = 0; i < sum.s.size(); ++i) sum.s[i] += others.s[i];
+    return sum;
+  }
+
   /// Evaluates the parameters at the current t into the data of the kernel. \throws InputError where they do not fit the surface.
   void apply_constants() {
     warnings_.clear();
@@ -308,7 +333,8 @@ class ShellTerm final : public Term {
                 m.thickness, kappa, m.thickness * kappa, centre(c)[0], centre(c)[1], centre(c)[2]);
           }
           const ShellForm<double> f = shell_form(k[0], k[1], m, coupling_);
-          shell::store_form(points + p * shell::point_entries * W, lane, f, places_[place].weight);
+          shell::store_form(points + p * shell::point_entries * W, lane, input_.part == SelectivePart::whole ? f : counted_sum(k, m, c),
+                            places_[place].weight);
           good = good && semidefinite(f.a) && semidefinite(f.b);
         }
         if (good || lane >= batch(b).cells_used) continue;
@@ -329,7 +355,7 @@ class ShellTerm final : public Term {
                       indefinite, at(centre(first_indefinite))));
   }
 
-  /// Integrals over the cells of batch b of the quadratic forms form(index into places_) of the strains; infinite where the interpolation is not defined.
+  /// Integrals over the cells of batch b of the quadratic forms form(index into places_, cell) of the strains; infinite where the interpolation is not defined.
   template <class Form>
   std::array<double, lanes_per_batch> integrals(const Configuration& u, int b, const Form& form) const {
     const auto entries = static_cast<std::size_t>(kind(b).tables.points * shell::point_entries * W);
@@ -338,7 +364,8 @@ class ShellTerm final : public Term {
     for (int p = 0; p < kind(b).tables.points; ++p)
       for (int lane = 0; lane < W; ++lane) {
         const std::size_t place = first_place_[static_cast<std::size_t>(b)] + static_cast<std::size_t>(p * W + lane);
-        shell::store_form(points.data() + p * shell::point_entries * W, lane, form(place), places_[place].weight);
+        shell::store_form(points.data() + p * shell::point_entries * W, lane, form(place, batch(b).cells[static_cast<std::size_t>(lane)]),
+                          places_[place].weight);
       }
     alignas(64) std::array<double, lanes_per_batch> sum;
     std::array<Trouble, lanes_per_batch> trouble;
@@ -367,6 +394,8 @@ class ShellTerm final : public Term {
   TermInput input_;
   Constants constants_;
   ReferenceGeometry reference_;
+  SelectiveFactors factors_;
+  std::vector<double> diameters_;  // by cell, with selective integration
   ShellCoupling coupling_ = ShellCoupling::standard;
   std::vector<Kind> kinds_;
   std::vector<Batch> batches_;

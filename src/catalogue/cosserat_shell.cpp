@@ -2,6 +2,7 @@
 
 #include "catalogue/entry.hpp"
 #include "catalogue/prestretch.hpp"
+#include "catalogue/shell_quadrature.hpp"
 #include "karcher/assembly/shell_term.hpp"
 #include "karcher/manifold/euclidean.hpp"
 #include "karcher/manifold/rotation.hpp"
@@ -41,12 +42,15 @@ std::vector<Entry> cosserat_shell_entries() {
       {.name = "b", .unit = "1", .description = "coefficients b1, b2, b3 of the curvature energy", .default_value = 1.0, .minimum = 0, .size = 3},
       prestretch_parameter(),
   };
-  e.choices = {{"coupling", {"default", "birsan-2021"}, "form of the membrane and bending energy; birsan-2021: the refined Wcoss of Birsan (2021)"}};
+  e.choices = {{"coupling", {"default", "birsan-2021"}, "form of the membrane and bending energy; birsan-2021: the refined Wcoss of Birsan (2021)"},
+               integration_choice()};
   e.parts = {"membrane", "bending", "curvature"};
   e.lame = true;
   e.stress_free = true;
   e.prestretch = true;
-  return {{e, [](const EnergyInfo& info, const TermInput& input) { return make_shell_term(term_info(info, input), input); }}};
+  return {{e, [](const EnergyInfo& info, const TermInput& input) {
+             return selectively(input, [&](const TermInput& i) { return make_shell_term(term_info(info, i), i); });
+           }}};
 }
 
 }  // namespace karcher::catalogue

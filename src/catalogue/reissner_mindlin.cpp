@@ -37,6 +37,7 @@ class ReissnerMindlinTerm : public DensityTerm<VaryingDensity<ReissnerMindlin>, 
   ReissnerMindlinTerm(TermInfo info, const TermInput& input, const std::vector<std::string>& keys, std::size_t strains_begin)
       : Base(std::move(info), input, {}, keys), directors_(stress_free_directors(input)) {
     typename Base::States states;
+    const std::vector<double> diameters = cell_diameters(input);
     for (int b = 0; b < this->batch_count(); ++b) {
       const MaskOf<T> known = this->template gather<1>(directors_, b, states);
       for (int q = 0; q < this->batches().kind(b).quadrature->size(); ++q) {
@@ -52,6 +53,10 @@ class ReissnerMindlinTerm : public DensityTerm<VaryingDensity<ReissnerMindlin>, 
         const std::array<T, 6> strains{dot(m[0], d.d[0]), dot(m[1], d.d[1]),  dot(m[0], d.d[1]),
                                        dot(m[1], d.d[0]), dot(m[0], d.value), dot(m[1], d.value)};
         for (std::size_t i = 0; i < strains.size(); ++i) this->parameter(b, q, strains_begin + i) = strains[i];
+        for (int lane = 0; lane < native_width; ++lane) {
+          const double diameter = diameters[static_cast<std::size_t>(this->batch(b).cells[static_cast<std::size_t>(lane)])];
+          set_lane(this->parameter(b, q, strains_begin + 6), lane, diameter * diameter);
+        }
       }
     }
   }
@@ -63,18 +68,34 @@ class ReissnerMindlinTerm : public DensityTerm<VaryingDensity<ReissnerMindlin>, 
   Configuration directors_;
 };
 
-std::unique_ptr<Term> make_reissner_mindlin(const EnergyInfo& info, const TermInput& given) {
+std::unique_ptr<Term> make_part(const EnergyInfo& info, const TermInput& given) {
   TermInput input = given;
   choose_shell_quadrature(input);
   std::vector<std::string> keys = parameter_keys(info, input);
   const std::size_t strains_begin = keys.size();
-  for (const char* name : {"bending0[11]", "bending0[22]", "bending0[12]", "bending0[21]", "shear0[1]", "shear0[2]"}) {
+  const SelectiveFactors factors = selective_factors(input.part);
+  for (const auto& [name, value] : {std::pair("bending0[11]", 0.0),
+                                    {"bending0[22]", 0.0},
+                                    {"bending0[12]", 0.0},
+                                    {"bending0[21]", 0.0},
+                                    {"shear0[1]", 0.0},
+                                    {"shear0[2]", 0.0},
+                                    {"diameter2", 1.0},
+                                    {"membrane_constant", factors.membrane_constant},
+                                    {"membrane_slope", factors.membrane_slope},
+                                    {"shear_constant", factors.shear_constant},
+                                    {"shear_slope", factors.shear_slope},
+                                    {"rest", factors.rest}}) {
     keys.emplace_back(name);
-    input.parameters[name] = 0.0;
+    input.parameters[name] = value;
   }
   return with_rule<Sphere<2>, 2>(input.field(1), [&]<class I>() -> std::unique_ptr<Term> {
     return std::make_unique<ReissnerMindlinTerm<I>>(term_info(info, input), input, keys, strains_begin);
   });
+}
+
+std::unique_ptr<Term> make_reissner_mindlin(const EnergyInfo& info, const TermInput& input) {
+  return selectively(input, [&](const TermInput& i) { return make_part(info, i); });
 }
 
 }  // namespace
@@ -102,7 +123,8 @@ std::vector<Entry> reissner_mindlin_entries() {
       {.name = "shear_correction", .unit = "1", .description = "k_s", .default_value = 5.0 / 6, .minimum = 0, .minimum_allowed = false},
       prestretch_parameter(),
   };
-  e.choices = {{"reference_director", {"normal", "initial"}, "d0: normal to the reference, or the initial values of the director"}};
+  e.choices = {{"reference_director", {"normal", "initial"}, "d0: normal to the reference, or the initial values of the director"},
+               integration_choice()};
   e.parts = {"membrane", "bending", "shear"};
   e.lame = true;
   e.stress_free = true;

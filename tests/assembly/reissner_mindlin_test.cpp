@@ -108,6 +108,15 @@ TEST(ReissnerMindlin, HasTheDerivativesThatJetsInTheCoordinatesOfItsFieldsGive) 
       keys.push_back("strain" + std::to_string(i));
       b.input.parameters[keys.back()] = 0.1 * (i + 1);
     }
+    for (const auto& [key, value] : {std::pair("diameter2", 0.3),
+                                     {"membrane_constant", 1.0},
+                                     {"membrane_slope", -1.0},
+                                     {"shear_constant", 0.0},
+                                     {"shear_slope", 1.0},
+                                     {"rest", 0.5}}) {
+      keys.emplace_back(key);
+      b.input.parameters[key] = value;
+    }
     b.perturb(0.1, 0.4);
     const auto dense = [&]<template <class> class Density>() {
       using M = LinearInterpolation<Euclidean<3>, 2, NativeScalar>;

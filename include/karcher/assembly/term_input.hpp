@@ -12,6 +12,9 @@
 
 namespace karcher {
 
+/// Whether a term is the whole of its energy, or one of the terms of selective integration (selective_integration.hpp).
+enum class SelectivePart { whole, all_points, membrane, shear, membrane_and_shear };
+
 /// Everything a term is made of. The region holds only the entities that this rank evaluates.
 struct TermInput {
   std::shared_ptr<const Mesh> mesh;
@@ -22,6 +25,7 @@ struct TermInput {
   std::map<std::string, std::string> choices;
   std::shared_ptr<const DensityFormula> formula;  ///< of energies whose density is one
   std::map<CellKind, int> quadrature_degree;      ///< empty entry: the energy's documented default
+  SelectivePart part = SelectivePart::whole;
   /// Stress-free configuration, if it is not the mesh: position as function of the mesh point, and Lagrange order of its interpolant.
   std::function<Vec3<double>(const Vec3<double>&)> reference_position;
   int reference_order = 2;

@@ -24,7 +24,11 @@ struct ReissnerMindlin {
   std::array<P, 2> prestretch;  ///< e_1, e_2
   std::array<P, 4> bending0;    ///< m0_a . d0_b without prestretch: 11, 22, 12, 21
   std::array<P, 2> shear0;      ///< m0_a . d0, the same
-  static ReissnerMindlin of(std::span<const P> p) { return {p[0], p[1], p[2], p[3], {p[4], p[5]}, {p[6], p[7], p[8], p[9]}, {p[10], p[11]}}; }
+  /// Of selective integration (assembly/selective_integration.hpp), with alpha = min(1, h^2/diameter2).
+  P diameter2 = P(1.0), membrane_constant = P(1.0), membrane_slope = P(0.0), shear_constant = P(1.0), shear_slope = P(0.0), rest = P(1.0);
+  static ReissnerMindlin of(std::span<const P> p) {
+    return {p[0], p[1], p[2], p[3], {p[4], p[5]}, {p[6], p[7], p[8], p[9]}, {p[10], p[11]}, p[12], p[13], p[14], p[15], p[16], p[17]};
+  }
 
   template <class S>
   struct Strains {
@@ -35,12 +39,12 @@ struct ReissnerMindlin {
   Strains<S> strains(const DirectorStrains<S>& e) const {
     const P r0 = 1.0 / prestretch[0], r1 = 1.0 / prestretch[1];
     const std::array<P, 3> r{r0 * r0, r1 * r1, r0 * r1};
-    const std::array<P, 3> rest{r0 * bending0[0], r1 * bending0[1], 0.5 * (r1 * bending0[2] + r0 * bending0[3])};
+    const std::array<P, 3> free{r0 * bending0[0], r1 * bending0[1], 0.5 * (r1 * bending0[2] + r0 * bending0[3])};
     Strains<S> s;
     for (std::size_t i = 0; i < 3; ++i) {
       s.membrane[i] = scaled(e.metric[i], 0.5 * r[i]);
       if (i < 2) s.membrane[i] -= constant<S>(P(0.5));
-      s.bending[i] = scaled(e.bending[i], r[i]) - constant<S>(rest[i]);
+      s.bending[i] = scaled(e.bending[i], r[i]) - constant<S>(free[i]);
     }
     s.shear = {scaled(e.shear[0], r0) - constant<S>(shear0[0]), scaled(e.shear[1], r1) - constant<S>(shear0[1])};
     return s;
@@ -56,9 +60,11 @@ struct ReissnerMindlin {
       add_square(to, strain[1], 2.0 * weight * mu);
       add_square(to, strain[2], 4.0 * weight * mu);
     };
-    add(membrane, s.membrane, 0.5 * h);
-    add(bending, s.bending, h * thickness * thickness * (1.0 / 24));
-    for (const S& gamma : s.shear) add_square(shear, gamma, 0.5 * h * shear_correction * mu);
+    const P alpha = min(P(1.0), thickness * thickness / diameter2);
+    add(membrane, s.membrane, 0.5 * h * (membrane_constant + membrane_slope * alpha));
+    add(bending, s.bending, rest * h * thickness * thickness * (1.0 / 24));
+    const P shear_weight = 0.5 * h * shear_correction * mu * (shear_constant + shear_slope * alpha);
+    for (const S& gamma : s.shear) add_square(shear, gamma, shear_weight);
   }
   template <class W, class S>
   void add_energy(W& w, const DirectorStrains<S>& e) const {

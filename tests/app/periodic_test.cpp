@@ -58,6 +58,35 @@ std::string square(int n, int version, bool triangles = false, bool turned = fal
       all, all, nodes, count, count, triangles ? 2 : 3, count, cells, pairs);
 }
 
+/// The unit cube of n x n x n cubes in the format 2.2, whose faces across x and across y are joined.
+std::string cube(int n) {
+  const auto tag = [&](int i, int j, int k) { return 7 + (k * (n + 1) + j) * (n + 1) + i; };
+  std::string nodes, cells, first, second;
+  int count = 0;
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) nodes += fmt::format("{} {} {} {}\n", tag(i, j, k), double(i) / n, double(j) / n, double(k) / n);
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        cells += fmt::format("{} 5 2 0 1", ++count);
+        for (const int upper : {k, k + 1})
+          cells += fmt::format(" {} {} {} {}", tag(i, j, upper), tag(i + 1, j, upper), tag(i + 1, j + 1, upper), tag(i, j + 1, upper));
+        cells += "\n";
+      }
+  for (int k = 0; k <= n; ++k)
+    for (int l = 0; l <= n; ++l) {
+      first += fmt::format("{} {}\n", tag(n, l, k), tag(0, l, k));
+      second += fmt::format("{} {}\n", tag(l, n, k), tag(l, 0, k));
+    }
+  const int sides = (n + 1) * (n + 1);
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n$Periodic\n2\n2 2 1\nAffine 1 0 0 1 0 1 0 0 0 0 "
+      "1 0 0 "
+      "0 0 1\n{}\n{}2 4 3\nAffine 1 0 0 0 0 1 0 1 0 0 1 0 0 0 0 1\n{}\n{}$EndPeriodic\n",
+      sides * (n + 1), nodes, count, cells, sides, first, sides, second);
+}
+
 /// A map of the square into the circle that winds once around along x; `angle` / 2 pi is where it starts.
 std::string winding(const std::string& angle, int order, const std::string& more = "") {
   return fmt::format(R"toml([parameters]
@@ -129,6 +158,18 @@ TEST(Periodic, OneTwoAndThreeRanksAgree) {
     EXPECT_GT(one["energy"].get<double>(), 2 * pi * pi + 0.1);
     for (const std::string ranks : {"-n 2", "-n 3"})
       EXPECT_NEAR(run(shop, winding("x", order, fixed + pulled), ranks)["energy"].get<double>(), one["energy"].get<double>(), 1e-10);
+  }
+}
+
+TEST(Periodic, ABoxWhoseFacesAreJoinedHasTheEnergyOfTheSquareOnAnyNumberOfRanks) {
+  const Workshop shop;
+  shop.write("square.msh", cube(3));
+  for (const int order : {1, 2, 3}) {
+    const std::string wavy = winding("x + 0.03*sin(2*pi*y) + 0.02*z", order);
+    const json one = run(shop, wavy);
+    EXPECT_NEAR(one["energy"].get<double>(), 2 * pi * pi, 1e-10) << order;
+    EXPECT_EQ(one["unknowns"], 9 * order * order * (3 * order + 1)) << "one node for each pair of copies";
+    EXPECT_NEAR(run(shop, wavy, "-n 2")["energy"].get<double>(), 2 * pi * pi, 1e-10) << order;
   }
 }
 

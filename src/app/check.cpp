@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
 #include "app/check_terms.hpp"
 #include "app/verbs.hpp"
 #include "karcher/problem/discrete_problem.hpp"
@@ -8,6 +12,30 @@
 #include "karcher/solve/together.hpp"
 
 namespace karcher::app {
+
+namespace {
+
+/// "m on left: value, free, value for t > 0.5"
+std::string held(const Problem& problem, const DirichletSpec& d) {
+  using Component = DirichletSpec::Component;
+  const FieldSpec& field = problem.fields[static_cast<std::size_t>(d.field)];
+  const auto word = [](Component c) {
+    return c == Component::value ? "value" : c == Component::initial ? "initial" : c == Component::current ? "current" : "free";
+  };
+  std::string what;
+  if (!field.manifold->linear && d.normal >= 0)
+    what = fmt::format("turns about {} only", std::string_view("xyz").substr(static_cast<std::size_t>(d.normal), 1));
+  else if (std::ranges::all_of(d.components, [&](Component c) { return c == d.components.front(); }))
+    what = word(d.components.front());
+  else
+    for (const Component c : d.components) what += std::string(what.empty() ? "" : ", ") + word(c);
+  std::string when;
+  if (std::isfinite(d.from)) when += fmt::format(", t > {:g}", d.from);
+  if (std::isfinite(d.to)) when += fmt::format(", t <= {:g}", d.to);
+  return fmt::format("{} on {}: {}{}", field.name, d.on, what, when);
+}
+
+}  // namespace
 
 int check(const CheckOptions& options) {
   Problem problem;
@@ -40,6 +68,8 @@ int check(const CheckOptions& options) {
     for (const int f : problem.terms[i].fields) fields += (fields.empty() ? "" : ", ") + problem.fields[static_cast<std::size_t>(f)].name;
     fmt::print("  {:<20} of {} on {}\n", model.term_names[i], fields, problem.terms[i].on);
   }
+  if (!problem.dirichlet.empty()) fmt::print("boundary data\n");
+  for (const DirichletSpec& d : problem.dirichlet) fmt::print("  {:<20} {}\n", d.name, held(problem, d));
   if (const std::string sentence = reference_sentence(model); !sentence.empty()) fmt::print("{}\n", sentence);
   fmt::print("unknowns  {} free, blocks of {}\n", model.layout->free_dofs(), model.layout->block_size());
   for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);

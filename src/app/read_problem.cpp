@@ -367,6 +367,15 @@ class Reader {
     spec.on_place = s.place("on");
     if (s.has("from")) spec.from = s.constant("from", problem_.scope);
     if (s.has("to")) spec.to = s.constant("to", problem_.scope);
+    if (s.has("name")) {
+      spec.name = s.text("name");
+      check_name(s.place("name"), "condition", spec.name);
+      for (const DirichletSpec& other : problem_.dirichlet)
+        if (other.name == spec.name)
+          refuse(s.place("name"), fmt::format("{}: {} ({}) has the name \"{}\", too.", s.path("name"), other.path, other.place.text(), spec.name));
+    } else {
+      spec.name = spec.on + "." + (way == "value" ? s.text("field") : way == "support" ? s.text("support") : way);
+    }
     if (way == "value")
       read_value(s, spec);
     else

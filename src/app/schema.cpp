@@ -173,7 +173,9 @@ std::vector<SectionInfo> make_schema() {
       {"dirichlet",
        "[[dirichlet]]",
        "Fixes a field on a region; values may depend on t and are set anew for every load step.",
-       {text("field", "name", described("must be given; with a word for a support: the deformation and its rotation"), "the field"),
+       {text("name", "name", described("the region and the field, or the region and the word for a support"),
+             "of this condition, in what `check` lists"),
+        text("field", "name", described("must be given; with a word for a support: the deformation and its rotation"), "the field"),
         text("on", "region", required, "where"),
         point("value", "point", described("must be given, or one of the next three"),
               "as `initial` of a field; in R^n also \"free\", \"initial\" or \"current\" for a component; \"initial\" fixes the initial value, "

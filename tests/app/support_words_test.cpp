@@ -147,5 +147,21 @@ TEST(SupportWords, ThatCannotBeMeantAreRefused) {
   says(turned, "the field \"Q\" can be left free to turn about x alone only where one of the axes of its initial rotation lies along x");
 }
 
+TEST(Supports, HaveNamesThatCheckLists) {
+  const Workshop shop;
+  const std::string named = "[[dirichlet]]\nname = \"wall\"\nfield = \"m\"\non = \"left\"\nvalue = [0, \"free\", \"2*t\"]\nto = 0.5\n";
+  const std::string body = "[mesh]\ngenerate = \"rectangle\"\ncells = [2, 1]\n" + soft_shell;
+  shop.write("problem.toml", body + named + support("left", "symmetry = \"x\"") + support("right", "support = \"clamped\""));
+  const Outcome o = shop.karcher("check problem.toml");
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const std::string line :
+       {"wall                 m on left: value, free, value, t <= 0.5\n", "left.symmetry        Q on left: turns about x only\n",
+        "right.clamped        m on right: initial\n", "right.clamped        Q on right: initial\n"})
+    EXPECT_NE(o.out.find(line), std::string::npos) << line << o.out;
+  const std::string twice = refusal(body + named + named);
+  EXPECT_NE(twice.find("dirichlet.1.name: dirichlet.0 (problem.toml:"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("has the name \"wall\", too."), std::string::npos) << twice;
+}
+
 }  // namespace
 }  // namespace karcher::testing

@@ -102,6 +102,7 @@ struct DirichletSpec {
   enum class Component { value, initial, current, free };
   std::string path;  ///< for messages: "dirichlet.0"
   Place place, on_place;
+  std::string name;  ///< of the condition; several entries make one, where a support in a word holds several fields
   int field = 0;
   std::string on;
   std::vector<Component> components;  ///< one entry for each tangent coordinate of the manifold

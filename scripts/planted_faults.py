@@ -117,7 +117,7 @@ class Copy:
                 if code is None:
                     return f"{where} does not end"
                 if code:
-                    failed = [line.split("]", 1)[1].split(",")[0].split("(")[0].strip() for line in self.output.splitlines() if "FAILED  ]" in line and "." in line]
+                    failed = [line.split("FAILED  ]", 1)[1].split(",")[0].split("(")[0].strip() for line in self.output.splitlines() if "FAILED  ]" in line and "." in line]
                     return failed[0] + (f" on {ranks} ranks" if ranks > 1 else "") if failed else f"{where} crashes"
         return None
 

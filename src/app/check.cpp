@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <string>
 
 #include "app/check_terms.hpp"
 #include "app/verbs.hpp"
@@ -24,7 +24,7 @@ std::string held(const Problem& problem, const DirichletSpec& d) {
   };
   std::string what;
   if (!field.manifold->linear && d.normal >= 0)
-    what = fmt::format("turns about {} only", std::string_view("xyz").substr(static_cast<std::size_t>(d.normal), 1));
+    what = (field.manifold->body_axes ? "turns only about " : "no component along ") + std::string(1, static_cast<char>('x' + d.normal));
   else if (std::ranges::all_of(d.components, [&](Component c) { return c == d.components.front(); }))
     what = word(d.components.front());
   else

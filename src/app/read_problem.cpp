@@ -444,7 +444,7 @@ class Reader {
           refuse(s.place("field"), fmt::format("{}: a {} support leaves the field \"{}\" free.", s.path(way), way == "support" ? word : way, name));
         continue;
       }
-      if (!m.linear && symmetry && !m.body_axes)
+      if (!m.linear && symmetry && !m.body_axes && !m.directions)
         refuse(s.place(way),
                fmt::format("{}: what a plane of symmetry means for the field \"{}\" with values in {} is not known; write \"field\" and \"value\".",
                            s.path(way), name, m.name));

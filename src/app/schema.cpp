@@ -186,7 +186,8 @@ std::vector<SectionInfo> make_schema() {
         word("support", "word", described("none"), {"clamped", "pinned"},
              "clamped holds deformation and rotation, pinned the deformation; the rotation is free"),
         word("symmetry", "axis", described("none"), {"x", "y", "z"},
-             "normal of a mirror plane of the body: the deformation stays in the plane, the rotation is about the normal only"),
+             "normal of a mirror plane of the body: the deformation stays in the plane, the rotation is about the normal only, a director in the "
+             "plane"),
         word("diaphragm", "axis", described("none"), {"x", "y", "z"},
              "normal of a plate that is rigid in its plane and weak out of it: the deformation moves along the normal only, the rotation is free"),
         constant("from", described("before the first load step"), 1, "the condition sets in: it holds in load steps that end at t > from"),

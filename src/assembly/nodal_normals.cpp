@@ -9,7 +9,8 @@
 
 namespace karcher {
 
-std::vector<Vec3<double>> nodal_normals(const Space& space, const Region& region, const ReferenceGeometry& reference) {
+std::vector<Vec3<double>> nodal_normals(const Space& space, const Region& region, const ReferenceGeometry& reference,
+                                        const std::vector<unsigned char>& mirrors) {
   constexpr double least = 1e-3;  // length of the mean of unit normals
   const Orientation orientation(space.mesh(), region);
   if (!orientation.exists())
@@ -27,6 +28,9 @@ std::vector<Vec3<double>> nodal_normals(const Space& space, const Region& region
       areas[static_cast<std::size_t>(nodes[i])] += std::sqrt(norm2(area));
     }
   }
+  for (std::size_t n = 0; n < mirrors.size(); ++n)
+    for (int i = 0; i < 3; ++i)
+      if (mirrors[n] >> i & 1) sum[n][i] = 0;
   for (std::size_t n = 0; n < count; ++n) {
     const double length = std::sqrt(norm2(sum[n]));
     if (areas[n] == 0) continue;

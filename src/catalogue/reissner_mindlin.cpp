@@ -21,7 +21,8 @@ Configuration stress_free_directors(const TermInput& input) {
   if (choice != input.choices.end() && choice->second == "initial") return u;
   const auto whole = input.mesh->regions.find(input.region.name);  // of which this rank may hold a part
   const std::vector<Vec3<double>> normals = nodal_normals(*input.field(1).space, whole != input.mesh->regions.end() ? whole->second : input.region,
-                                                          {*input.mesh, input.reference_position, input.reference_order});
+                                                          {*input.mesh, input.reference_position, input.reference_order},
+                                                          input.mirrors.empty() ? std::vector<unsigned char>() : input.mirrors[1]);
   for (std::size_t n = 0; n < normals.size(); ++n)
     if (norm2(normals[n]) > 0) std::copy(normals[n].e.begin(), normals[n].e.end(), u.at(input.fields[1], static_cast<int>(n), 3));
   return u;

@@ -83,6 +83,33 @@ std::vector<DirichletSpec::Component> turning_about(const DirichletSpec& spec, c
                      spec.path, field.name, axis_name(spec.normal), axis_name(spec.normal), place_text(place, 1)));
 }
 
+/// The components that leave a direction of space free to turn in the mirror plane in which it lies, and no other: where the tangent coordinates at the point have one along
+/// the normal of the plane, that one is held.
+std::vector<DirichletSpec::Component> staying_in_plane(const DirichletSpec& spec, const Field& field, const double* point,
+                                                       const Vec3<double>& place) {
+  using Component = DirichletSpec::Component;
+  constexpr double step = 1e-4;
+  const auto axis = static_cast<std::size_t>(spec.normal);
+  const ManifoldOps& m = *field.manifold;
+  if (std::abs(point[axis]) > 1e-9)
+    refuse(spec.place,
+           fmt::format(
+               "{}: the initial value of the field \"{}\" must lie in the plane of symmetry, normal to {}; at {} it is ({:.6g}, {:.6g}, {:.6g}).",
+               spec.path, field.name, axis_name(spec.normal), place_text(place, 1), point[0], point[1], point[2]));
+  std::vector<Component> components(static_cast<std::size_t>(m.dim), Component::free);
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    std::vector<double> v(components.size(), 0.0), moved(static_cast<std::size_t>(m.ambient));
+    v[k] = step;
+    m.retract(point, v.data(), moved.data());
+    if (std::abs(moved[axis] - point[axis]) < (1 - 1e-6) * step) continue;
+    components[k] = Component::initial;
+    return components;
+  }
+  refuse(spec.place,
+         fmt::format("{}: the field \"{}\" cannot be held in a plane normal to {} at {}; turn the body, so that the plane is normal to x or y.",
+                     spec.path, field.name, axis_name(spec.normal), place_text(place, 1)));
+}
+
 }  // namespace
 
 bool Constraints::holds(const DirichletSpec& spec, const Phase& phase) const {
@@ -174,7 +201,10 @@ Constraints::Constraints(const Problem& problem, std::span<const Field> fields, 
       NodeValue value{static_cast<int>(k), spec.field, node, {place, {}}, {}};
       if (!places.empty()) value.place.normal = places[static_cast<std::size_t>(node)].normal;
       if (back) value.initial.assign(point, point + f.manifold->ambient);
-      list.push_back({value, spec.normal >= 0 && f.manifold->body_axes ? turning_about(spec, f, point, place) : spec.components});
+      list.push_back({value, spec.normal < 0          ? spec.components
+                             : f.manifold->body_axes  ? turning_about(spec, f, point, place)
+                             : f.manifold->directions ? staying_in_plane(spec, f, point, place)
+                                                      : spec.components});
       if (spec.value || back) values_.push_back(value);
       if (!kept) continue;
       kept_.push_back(value);

@@ -14,6 +14,7 @@
 #include "karcher/problem/enclosure.hpp"
 #include "karcher/problem/free_axes.hpp"
 #include "karcher/problem/mesh_points.hpp"
+#include "karcher/problem/mirror_planes.hpp"
 #include "karcher/problem/probes.hpp"
 #include "karcher/problem/reference_energy.hpp"
 #include "karcher/problem/start_values.hpp"
@@ -38,20 +39,24 @@ void add_region(Mesh& mesh, const RegionSpec& spec) {
   });
 }
 
-std::vector<Vec3<double>> reference_normals(const Problem& problem, const FieldSpec& spec, const Space& space) {
+std::vector<Vec3<double>> reference_normals(const Problem& problem, int field, const Space& space) {
+  const FieldSpec& spec = problem.fields[static_cast<std::size_t>(field)];
   if (space.region().dim != 2)
     refuse(spec.place,
            fmt::format("the field \"{}\" starts at the normals of a surface, but lives on \"{}\" of dimension {}; give it initial values.", spec.name,
                        space.region().name, space.region().dim));
   const ReferenceSpec stress_free = reference(problem, space.mesh());
-  return at_place(spec.place, [&] { return nodal_normals(space, space.region(), {space.mesh(), stress_free.position, stress_free.order}); });
+  return at_place(spec.place, [&] {
+    return nodal_normals(space, space.region(), {space.mesh(), stress_free.position, stress_free.order}, mirror_planes(problem, field, space));
+  });
 }
 
-std::vector<double> initial_values(const Problem& problem, const FieldSpec& spec, const Space& space) {
+std::vector<double> initial_values(const Problem& problem, int field, const Space& space) {
+  const FieldSpec& spec = problem.fields[static_cast<std::size_t>(field)];
   const int n = spec.manifold->ambient;
   std::vector<double> values(static_cast<std::size_t>(space.node_count() * n));
   if (!spec.initial) {
-    const std::vector<Vec3<double>> positions = spec.normal ? reference_normals(problem, spec, space) : reference_positions(problem, space);
+    const std::vector<Vec3<double>> positions = spec.normal ? reference_normals(problem, field, space) : reference_positions(problem, space);
     for (int node = 0; node < space.node_count(); ++node)
       for (int i = 0; i < std::min(n, 3); ++i) values[static_cast<std::size_t>(node * n + i)] = positions[static_cast<std::size_t>(node)][i];
     return values;
@@ -131,6 +136,10 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.reference_order = stress_free.order;
   input.t = problem.continuation.from;
   input.initial = initial;
+  for (const int f : spec.fields)
+    input.mirrors.push_back(d.fields[static_cast<std::size_t>(f)].manifold->directions
+                                ? mirror_planes(problem, f, *d.fields[static_cast<std::size_t>(f)].space)
+                                : std::vector<unsigned char>());
   if (spec.info.one_axis) input.free_axes = free_axes(spec, d);
   return at_place(spec.place, [&] { return spec.make(std::move(input)); });
 }
@@ -226,8 +235,9 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
     const Region& region = at_place(spec.on_place, [&]() -> const Region& { return d.mesh->region(spec.on); });
     const auto space = at_place(spec.place, [&] { return std::make_shared<const Space>(d.mesh, region, order_of(spec, *d.mesh)); });
     d.fields.push_back({spec.name, spec.manifold, spec.rule, space});
-    d.initial.values.push_back(initial_values(problem, spec, *space));
-    require_periodic(problem, static_cast<int>(d.fields.size()) - 1, *space, d.initial.values.back());
+    const int number = static_cast<int>(d.fields.size()) - 1;
+    d.initial.values.push_back(initial_values(problem, number, *space));
+    require_periodic(problem, number, *space, d.initial.values.back());
   }
   for (const TermSpec& spec : problem.terms) check_region_of_term(spec, d);
   d.constraints = Constraints(problem, d.fields, d.initial);

@@ -117,6 +117,62 @@ value = [0, 0, "-90e-3"]
   EXPECT_NEAR(s["load_steps"][0]["probes"]["m"][2].get<double>(), -0.3006e-3, 0.003 * 0.3006e-3);
 }
 
+/// A cap of a sphere, or a quarter of it, under its weight, by a Reissner-Mindlin shell.
+std::string cap(const std::string& mesh, const std::string& supports) {
+  return "[mesh]\ngenerate = \"rectangle\"\nshape = \"quadrilateral\"\n" + mesh + R"toml(
+[reference]
+position = ["x", "y", "sqrt(16 - x^2 - y^2)"]
+[fields.m]
+manifold = "R3"
+order = 2
+[fields.d]
+manifold = "S2"
+order = 2
+[[energies]]
+type = "reissner-mindlin"
+deformation = "m"
+director = "d"
+thickness = 0.1
+young = 1
+poisson = 0.3
+[[loads]]
+type = "volume"
+field = "m"
+value = [0, 0, "-1e-4*t"]
+[output]
+report = false
+vtu = false
+[solver]
+gradient_tolerance = 1e-12
+)toml" + supports +
+         probe("m", "[0, 0, 0]", "displacement");
+}
+
+TEST(SupportWords, DirectorsStayInPlanesOfSymmetry) {
+  const std::string rim =
+      "[regions.rim]\ndim = 1\nboundary = true\nwhere = \"abs(x) > 2 - 1e-9 || abs(y) > 1 - 1e-9\"\n" + support("rim", "support = \"pinned\"");
+  const json whole = run(cap("lower = [-2, -1]\nsize = [4, 2]\ncells = [8, 4]\n", rim));
+  const std::string quarter =
+      cap("size = [2, 1]\ncells = [4, 2]\n", rim + support("left", "symmetry = \"x\"") + support("bottom", "symmetry = \"y\""));
+  const json part = run(quarter);
+  const double w = whole["load_steps"][0]["probes"]["m"][2];
+  EXPECT_LT(w, -1e-5);
+  EXPECT_NEAR(part["load_steps"][0]["probes"]["m"][2].get<double>(), w, 1e-9 * std::fabs(w));
+  EXPECT_NEAR(part["energy"].get<double>(), whole["energy"].get<double>() / 4, 1e-9 * std::fabs(whole["energy"].get<double>()));
+  EXPECT_TRUE(part["warnings"].empty()) << part["warnings"];
+
+  std::string out_of_plane = quarter;
+  out_of_plane.insert(out_of_plane.find("[[energies]]"), "initial = [0.6, 0, 0.8]\n");
+  const std::string said = refusal(out_of_plane);
+  EXPECT_NE(said.find("the initial value of the field \"d\" must lie in the plane of symmetry, normal to x; at (0, 0, 0) it is (0.6, 0, 0.8)."),
+            std::string::npos)
+      << said;
+  std::string across_z = cap(small, "[regions.foot]\nnear = [2, 1, 0]\n" + support("foot", "field = \"d\"\nsymmetry = \"z\""));
+  across_z.insert(across_z.find("[[energies]]"), "initial = [0.6, 0.8, 0]\n");
+  const std::string turned = refusal(across_z);
+  EXPECT_NE(turned.find("\"d\" cannot be held in a plane normal to z at (2, 1, 0); turn the body"), std::string::npos) << turned;
+}
+
 TEST(SupportWords, SolidsHaveSymmetryWithoutRotations) {
   const Workshop shop;
   shop.write("problem.toml", shell(small, thin + support("left", "field = \"m\"\nsymmetry = \"x\"")));
@@ -155,7 +211,7 @@ TEST(Supports, HaveNamesThatCheckLists) {
   const Outcome o = shop.karcher("check problem.toml");
   ASSERT_EQ(o.code, 0) << o.err;
   for (const std::string line :
-       {"wall                 m on left: value, free, value, t <= 0.5\n", "left.symmetry        Q on left: turns about x only\n",
+       {"wall                 m on left: value, free, value, t <= 0.5\n", "left.symmetry        Q on left: turns only about x\n",
         "right.clamped        m on right: initial\n", "right.clamped        Q on right: initial\n"})
     EXPECT_NE(o.out.find(line), std::string::npos) << line << o.out;
   const std::string twice = refusal(body + named + named);

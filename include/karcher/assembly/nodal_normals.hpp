@@ -10,8 +10,11 @@
 
 namespace karcher {
 
-/// \param region  of dimension 2, carried by the space  \returns one for every node; zero at nodes off the region
+/// \param region  of dimension 2, carried by the space
+/// \param mirrors  by node, none or bit i where the surface goes on as its mirror image in a plane normal to axis i: the mean with the image's normal has no component along it
+/// \returns one for every node; zero at nodes off the region
 /// \throws InputError where the surface is one-sided, or folded so that the normals around a node cancel
-std::vector<Vec3<double>> nodal_normals(const Space& space, const Region& region, const ReferenceGeometry& reference);
+std::vector<Vec3<double>> nodal_normals(const Space& space, const Region& region, const ReferenceGeometry& reference,
+                                        const std::vector<unsigned char>& mirrors = {});
 
 }  // namespace karcher

@@ -32,6 +32,8 @@ struct TermInput {
   double t = 0;
   /// Nodal values at the start, for energies that are free of stress there; none, or none of a field: its manifold's standard point.
   std::shared_ptr<const Configuration> initial;
+  /// By field of `fields`, of those of directions: the mirror planes through its nodes, as nodal_normals takes them; or none.
+  std::vector<std::vector<unsigned char>> mirrors;
   /// Of energies with EnergyInfo::one_axis, by node of the first field: the tangent coordinate that alone is free; -1 where all are held, and off the region.
   std::vector<signed char> free_axes;
 

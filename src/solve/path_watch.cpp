@@ -46,9 +46,11 @@ std::string PathWatch::next(const Configuration& u) {
     const double off = length(sum(rate, -increment, rate_)), expected = most_bent_ * increment * increment, reach = fastest_ * std::abs(increment);
     if (bends_ > 0 && off > tuning_.jump * expected && off > reach)
       sentence = fmt::format(
-          "the path may have jumped between t = {:.6g} and t = {:.6g}: the state is {:.3g} times as far from where the load steps before point "
-          "as any of theirs was. Smaller load steps tell a jump (snap-through, buckling) from a bend",
-          last_.t, u.t, off / expected);
+          "the path may have jumped between t = {:.6g} and t = {:.6g}: the state is {}. Smaller load steps tell a jump (snap-through, buckling) from "
+          "a bend",
+          last_.t, u.t,
+          expected > 0 ? fmt::format("{:.3g} times as far from where the load steps before point as any of theirs was", off / expected)
+                       : std::string("not where the load steps before, on a straight path, point"));
     else
       most_bent_ = std::max(most_bent_, off / (increment * increment));
     ++bends_;

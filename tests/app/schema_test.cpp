@@ -51,6 +51,7 @@ on = "all"
 field = "m"
 value = [0, 0, 1]
 [[dirichlet]]
+name = "wall"
 field = "m"
 on = "left"
 value = "initial"

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "karcher/mesh/place_text.hpp"
+#include "karcher/problem/carried_parts.hpp"
 #include "karcher/problem/discrete_problem.hpp"
 #include "karcher/problem/mesh_points.hpp"
 
@@ -19,10 +20,10 @@ struct NodeAtPlace {
   Vec3<double> place;
 };
 
-/// Nodes of the field on the entities of a region, ascending. Where copies of a node are joined, one entry for every copy in the region.
+/// Nodes of the field on the entities of a region and on their edges and vertices, ascending. Where copies of a node are joined, one entry for every copy in the region.
 std::vector<NodeAtPlace> nodes_on(const Space& space, const Region& region) {
   std::map<int, std::vector<Vec3<double>>> found;
-  for (const Cell& c : region.cells) {
+  for (const Cell& c : carried_parts(space, region)) {
     const std::vector<int> nodes = space.entity_nodes(c);
     const std::vector<Vec3<double>> places = space.joins_copies() ? space.entity_positions(c) : std::vector<Vec3<double>>();
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -133,6 +133,21 @@ TEST(Film, EndsInTheSameStateOnTwoRanks) {
   EXPECT_NEAR(two, one, 1e-10 * one);
 }
 
+TEST(Film, IsHeldByTheWallsThatItTouches) {
+  const Workshop shop;
+  std::string walls = block("hexahedron") + film("cosserat-shell", 2, "thickness = 0.05\nmu = 10\nlambda = 20\n");
+  walls +=
+      "[[dirichlet]]\nfield = \"film\"\non = \"bottom\"\nvalue = \"identity\"\n";  // the face y = 0, of which the film has an edge of three cells
+  shop.write("problem.toml", walls);
+  const Outcome o = shop.karcher("check problem.toml");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("35 nodes, 105 unknowns, 21 fixed"), std::string::npos) << o.out;
+  // The face z = 0 is on the other side.
+  std::string away = walls;
+  away.replace(away.find("on = \"bottom\""), 13, "on = \"front\"");
+  EXPECT_NE(refusal(away).find("has no node on the region \"front\""), std::string::npos) << refusal(away);
+}
+
 TEST(Film, IsRefusedInsideTheSolid) {
   const std::string said = refusal(
       block("hexahedron") + "[regions.inside]\ndim = 3\nwhere = \"x < 1\"\n" +

@@ -134,6 +134,13 @@ inline std::string join_names(std::span<const std::string> names, std::string_vi
   return names.size() > most ? s + std::string(separator) + "... (" + std::to_string(names.size()) + " in all)" : s;
 }
 
+/// "a, b and c"
+inline std::string listed(std::span<const std::string> names) {
+  std::string s;
+  for (std::size_t i = 0; i < names.size(); ++i) s += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return s;
+}
+
 /// "Did you mean \"x\"? Known: a, b, c." or, when nothing is near, "Known: a, b, c."
 inline std::string suggestion(std::string_view name, std::span<const std::string> candidates, std::string_view known = "Known") {
   const std::string near = nearest_name(name, candidates);

@@ -15,7 +15,7 @@ namespace karcher::app {
 
 namespace {
 
-/// "m on left: value, free, value for t > 0.5"
+/// "m on left: value, free, value, t > 0.5"
 std::string held(const Problem& problem, const DirichletSpec& d) {
   using Component = DirichletSpec::Component;
   const FieldSpec& field = problem.fields[static_cast<std::size_t>(d.field)];

@@ -14,6 +14,11 @@ void refuse_name(const Place& place, const std::string& what, const std::string&
   refuse(place, what + " \"" + shortened(name) + "\". " + suggestion(name, allowed, "Allowed"));
 }
 
+void check_name(const Place& place, const std::string& what, const std::string& name) {
+  if (const std::string fault = fault_of_name(name); !fault.empty())
+    refuse(place, "the name of the " + what + " \"" + printable(shortened(name)) + "\" " + fault + ".");
+}
+
 Expression expression_of(const Value& value, const std::string& key, const Scope& scope) {
   if (value.is_number()) {
     if (!std::isfinite(value.as_double())) refuse(value.place, key + " must be finite.");

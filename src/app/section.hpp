@@ -75,6 +75,9 @@ class Section {
   Value resolved_;
 };
 
+/// \throws InputError where `name` cannot be that of a region, a field or the like.
+void check_name(const Place& place, const std::string& what, const std::string& name);
+
 /// \throws InputError naming the unknown name, the allowed and the nearest
 [[noreturn]] void refuse_name(const Place& place, const std::string& what, const std::string& name, const std::vector<std::string>& allowed);
 /// The number or expression that a value holds.

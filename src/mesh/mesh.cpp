@@ -60,13 +60,15 @@ Distinct distinct(std::size_t expected, Visit visit) {
   return result;
 }
 
+Part facet_part(const Cell& c, int f) {
+  const ReferenceFace& face = facets(c.kind)[at(f)];
+  return {c, face.kind, face.vertices, facet_nodes(c.kind, c.order, f)};
+}
+
 Distinct distinct_facets(const std::vector<Cell>& cells) {
   return distinct(2 * cells.size(), [&](auto pass) {
     for (const Cell& c : cells)
-      for (std::size_t f = 0; f < facets(c.kind).size(); ++f) {
-        const ReferenceFace& facet = facets(c.kind)[f];
-        pass(Part{c, facet.kind, facet.vertices, facet_nodes(c.kind, c.order, static_cast<int>(f))});
-      }
+      for (int f = 0; f < static_cast<int>(facets(c.kind).size()); ++f) pass(facet_part(c, f));
   });
 }
 
@@ -120,6 +122,8 @@ double diagonal(const Mesh& mesh) {
   }
   return std::sqrt(norm2(size));
 }
+
+Cell facet(const Cell& cell, int f) { return trace(facet_part(cell, f)); }
 
 std::vector<Cell> boundary_facets(const Mesh& mesh) {
   Distinct all = distinct_facets(mesh.cells);

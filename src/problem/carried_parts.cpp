@@ -8,11 +8,7 @@ void add(const Space& space, const Cell& entity, std::vector<Cell>& parts) {
     parts.push_back(entity);
     return;
   }
-  for (std::size_t f = 0; f < facets(entity.kind).size(); ++f) {
-    Cell facet{facets(entity.kind)[f].kind, entity.order, {}, {}};
-    for (const int n : facet_nodes(entity.kind, entity.order, static_cast<int>(f))) facet.nodes.push_back(entity.nodes[static_cast<std::size_t>(n)]);
-    add(space, facet, parts);
-  }
+  for (int f = 0; f < static_cast<int>(facets(entity.kind).size()); ++f) add(space, facet(entity, f), parts);
 }
 
 }  // namespace

@@ -39,24 +39,21 @@ void add_region(Mesh& mesh, const RegionSpec& spec) {
   });
 }
 
-std::vector<Vec3<double>> reference_normals(const Problem& problem, int field, const Space& space) {
-  const FieldSpec& spec = problem.fields[static_cast<std::size_t>(field)];
+std::vector<Vec3<double>> reference_normals(const Problem& problem, const FieldSpec& spec, const Space& space,
+                                            const std::vector<unsigned char>& mirrors) {
   if (space.region().dim != 2)
     refuse(spec.place,
            fmt::format("the field \"{}\" starts at the normals of a surface, but lives on \"{}\" of dimension {}; give it initial values.", spec.name,
                        space.region().name, space.region().dim));
   const ReferenceSpec stress_free = reference(problem, space.mesh());
-  return at_place(spec.place, [&] {
-    return nodal_normals(space, space.region(), {space.mesh(), stress_free.position, stress_free.order}, mirror_planes(problem, field, space));
-  });
+  return at_place(spec.place, [&] { return nodal_normals(space, space.region(), {space.mesh(), stress_free.position, stress_free.order}, mirrors); });
 }
 
-std::vector<double> initial_values(const Problem& problem, int field, const Space& space) {
-  const FieldSpec& spec = problem.fields[static_cast<std::size_t>(field)];
+std::vector<double> initial_values(const Problem& problem, const FieldSpec& spec, const Space& space, const std::vector<unsigned char>& mirrors) {
   const int n = spec.manifold->ambient;
   std::vector<double> values(static_cast<std::size_t>(space.node_count() * n));
   if (!spec.initial) {
-    const std::vector<Vec3<double>> positions = spec.normal ? reference_normals(problem, field, space) : reference_positions(problem, space);
+    const std::vector<Vec3<double>> positions = spec.normal ? reference_normals(problem, spec, space, mirrors) : reference_positions(problem, space);
     for (int node = 0; node < space.node_count(); ++node)
       for (int i = 0; i < std::min(n, 3); ++i) values[static_cast<std::size_t>(node * n + i)] = positions[static_cast<std::size_t>(node)][i];
     return values;
@@ -67,19 +64,11 @@ std::vector<double> initial_values(const Problem& problem, int field, const Spac
   return values;
 }
 
-/// Whether an energy takes the field's values for the places of the points.
-bool moves(const Problem& problem, int field) {
-  for (const TermSpec& t : problem.terms)
-    for (std::size_t k = 0; k < t.fields.size(); ++k)
-      if (t.fields[k] == field && t.info.fields[k].moves) return true;
-  return false;
-}
-
 /// Where copies of a node are one for a field, the initial values must agree there: those in `values` are of one of the copies.
 void require_periodic(const Problem& problem, int f, const Space& space, const std::vector<double>& values) {
   if (!space.joins_copies()) return;
   const FieldSpec& spec = problem.fields[static_cast<std::size_t>(f)];
-  if (moves(problem, f) || (spec.manifold->linear && !spec.initial))
+  if (problem.is_deformation(f) || (spec.manifold->linear && !spec.initial))
     refuse(spec.place,
            fmt::format("the field \"{}\" has positions as values, which differ at the two sides of a periodic mesh; leave the sides apart with "
                        "mesh.periodic = false, or join their nodes in the mesh.",
@@ -136,10 +125,7 @@ std::unique_ptr<Term> build_term(const Problem& problem, const TermSpec& spec, c
   input.reference_order = stress_free.order;
   input.t = problem.continuation.from;
   input.initial = initial;
-  for (const int f : spec.fields)
-    input.mirrors.push_back(d.fields[static_cast<std::size_t>(f)].manifold->directions
-                                ? mirror_planes(problem, f, *d.fields[static_cast<std::size_t>(f)].space)
-                                : std::vector<unsigned char>());
+  for (const int f : spec.fields) input.mirrors.push_back(d.mirrors[static_cast<std::size_t>(f)]);
   if (spec.info.one_axis) input.free_axes = free_axes(spec, d);
   return at_place(spec.place, [&] { return spec.make(std::move(input)); });
 }
@@ -175,6 +161,13 @@ void check_solvable(const Problem& problem) {
     });
     if (!used) refuse(problem.fields[i].place, "no energy uses the field \"" + problem.fields[i].name + "\".");
   }
+}
+
+bool Problem::is_deformation(int field) const {
+  for (const TermSpec& t : terms)
+    for (std::size_t k = 0; k < t.fields.size(); ++k)
+      if (t.fields[k] == field && t.info.fields[k].moves) return true;
+  return false;
 }
 
 int Problem::deformation() const {
@@ -236,7 +229,8 @@ Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> me
     const auto space = at_place(spec.place, [&] { return std::make_shared<const Space>(d.mesh, region, order_of(spec, *d.mesh)); });
     d.fields.push_back({spec.name, spec.manifold, spec.rule, space});
     const int number = static_cast<int>(d.fields.size()) - 1;
-    d.initial.values.push_back(initial_values(problem, number, *space));
+    d.mirrors.push_back(spec.manifold->directions ? mirror_planes(problem, number, *space) : std::vector<unsigned char>());
+    d.initial.values.push_back(initial_values(problem, spec, *space, d.mirrors.back()));
     require_periodic(problem, number, *space, d.initial.values.back());
   }
   for (const TermSpec& spec : problem.terms) check_region_of_term(spec, d);

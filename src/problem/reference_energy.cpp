@@ -29,7 +29,7 @@ double energy_of(const Term& term, const Configuration& u) {
 bool prestretched(const TermSpec& term) {
   return term.info.prestretch && std::ranges::any_of(std::array{"prestretch[0]", "prestretch[1]"}, [&](const char* key) {
            const auto found = term.parameters.find(key);
-           return found != term.parameters.end() && (found->second.function || found->second.constant != 1);
+           return found != term.parameters.end() && !found->second.is(1);
          });
 }
 

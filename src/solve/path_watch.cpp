@@ -44,7 +44,7 @@ std::string PathWatch::next(const Configuration& u) {
   Configuration rate = sum(u, -1.0, last_);
   if (!rate_.values.empty()) {
     const double off = length(sum(rate, -increment, rate_)), expected = most_bent_ * increment * increment, reach = fastest_ * std::abs(increment);
-    if (bends_ > 0 && off > tuning_.jump * expected && off > reach)
+    if (bends_ > 0 && fastest_ > 0 && off > tuning_.jump * expected && off > reach)
       sentence = fmt::format(
           "the path may have jumped between t = {:.6g} and t = {:.6g}: the state is {}. Smaller load steps tell a jump (snap-through, buckling) from "
           "a bend",

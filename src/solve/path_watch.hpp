@@ -18,7 +18,8 @@ class PathWatch {
   PathWatch(const Layout& layout, std::vector<double> mass, const SolverTuning& tuning) : layout_(layout), mass_(std::move(mass)), tuning_(tuning) {}
 
   /// The next state; u.t differs from that of the last one. \returns a sentence if it is more than SolverTuning::jump times as far from its linear extrapolation
-  /// as any state before (by the square of the increment of t), and farther than all of them have moved for such an increment; else nothing. Collective.
+  /// as any state before (by the square of the increment of t), and farther than all of them have moved for such an increment; else nothing. Silent as long as no state has moved
+  /// (a load that sets in later). Collective.
   std::string next(const Configuration& u);
 
  private:

@@ -13,6 +13,15 @@ namespace {
 
 using nlohmann::json;
 
+/// Its material follows.
+const std::string solid = R"toml([fields.m]
+manifold = "R3"
+order = 2
+[[energies]]
+type = "hyperelastic"
+deformation = "m"
+)toml";
+
 /// A shell on the face z = 1 of a box: its field, which starts without stress, and its energy.
 std::string film(const std::string& type, int order, const std::string& rest) {
   const bool director = type == "reissner-mindlin";
@@ -31,13 +40,7 @@ shape = "hexahedron"
 near = [0, 0, 0]
 [regions.other_corner]
 near = [0, 1, 0]
-[fields.m]
-manifold = "R3"
-order = 2
-[[energies]]
-type = "hyperelastic"
-deformation = "m"
-material = "saint-venant-kirchhoff"
+)toml" + solid + R"toml(material = "saint-venant-kirchhoff"
 young = 1
 poisson = 0
 [[dirichlet]]
@@ -80,13 +83,8 @@ TEST(Film, BendsAStripThatIsTooShortForIt) {
 /// A block that is pressed together, of cells of some shape.
 std::string block(const std::string& shape) {
   return "[mesh]\ngenerate = \"box\"\nsize = [2, 1, 1]\ncells = [3, 2, 2]\nshape = \"" + shape + R"toml("
-[fields.m]
-manifold = "R3"
-order = 2
-[[energies]]
-type = "hyperelastic"
-deformation = "m"
-material = "neo-hooke"
+)toml" + solid +
+         R"toml(material = "neo-hooke"
 mu = 1
 lambda = 2
 [[dirichlet]]

@@ -19,6 +19,14 @@ using testing::Workshop;
 
 json probe(const json& summary, const std::string& name) { return summary["load_steps"].back()["probes"][name]; }
 
+const std::string cubic_fields = R"toml([fields.m]
+manifold = "R3"
+order = 3
+[fields.Q]
+manifold = "SO3"
+order = 3
+)toml";
+
 /// A rod along z of length 10, clamped below, that a couple at its end bends about x.
 const std::string rod = R"toml([parameters]
 turn = "2.5*pi"
@@ -29,13 +37,7 @@ length = 10
 cells = [20]
 [regions.tip]
 near = [0, 0, 10]
-[fields.m]
-manifold = "R3"
-order = 3
-[fields.Q]
-manifold = "SO3"
-order = 3
-[[energies]]
+)toml" + cubic_fields + R"toml([[energies]]
 type = "cosserat-rod"
 deformation = "m"
 rotation = "Q"
@@ -76,13 +78,7 @@ generate = "rectangle"
 size = [10, 2]
 cells = [12, 1]
 shape = "quadrilateral"
-[fields.m]
-manifold = "R3"
-order = 3
-[fields.Q]
-manifold = "SO3"
-order = 3
-[[energies]]
+)toml" + cubic_fields + R"toml([[energies]]
 type = "cosserat-shell"
 deformation = "m"
 rotation = "Q"

@@ -49,6 +49,10 @@ TEST(PathWatch, SaysHowFarAndHasWordsForAJumpAfterAStraightPath) {
   EXPECT_NE(straight[6].find("the state is not where the load steps before, on a straight path, point."), std::string::npos) << straight[6];
 }
 
+TEST(PathWatch, IsSilentWhereALoadSetsInAfterSomeLoadSteps) {
+  EXPECT_TRUE(told(even, [](double t) { return std::max(t - 3, 0.0); }).empty());
+}
+
 TEST(PathWatch, TellsEveryOfTwoJumps) {
   EXPECT_EQ(told(even, [](double t) { return t + 0.05 * t * t + (t > 3.5 ? 40 : 0) + (t > 7.5 ? 40 : 0); }), (std::vector<double>{4, 8}));
 }

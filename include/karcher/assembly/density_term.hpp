@@ -25,7 +25,6 @@
 #include "karcher/assembly/field_state.hpp"
 #include "karcher/assembly/gradient_derivatives.hpp"
 #include "karcher/assembly/point_parameters.hpp"
-#include "karcher/energy/surface_derivatives.hpp"
 #include "karcher/interpolation/interpolation.hpp"
 
 namespace karcher {
@@ -124,7 +123,7 @@ class DensityTerm : public Term {
                                                          std::declval<const FieldJet<typename Interpolation::Manifold, D, T>&>()...));
   static constexpr bool placed =
       density_detail::Placed<DensityAtPoint, Reference, FieldJet<typename Interpolation::Manifold, D, T>...> || std::tuple_size_v<Quantities> != 0;
-  /// Whether W depends on the value of field f, not only on its derivatives; else 1, to leave out its rows.
+  /// 1 where W depends on the derivatives of field f only, so that the rows of its value are left out.
   template <std::size_t f>
   static constexpr int first_row = f == 0 && F == 2 && D > 0 && (OfBodyStrains<DensityAtPoint, D, T> || OfDirectorStrains<DensityAtPoint, T>) ? 1 : 0;
   static constexpr bool of_gradient = [] {
@@ -309,29 +308,20 @@ class DensityTerm : public Term {
     if (want == Want::hessian) (store_rows<f>(work, kind, begin, out, all), ...);
   }
 
-  /// Directions are axes: of space, or of the plane z = 0 in which the stress-free configuration lies.
   void evaluate_of_gradient(const Configuration& u, int b, Want want, BatchResult& out) const {
     constexpr int k = M<0>::dim;
     const KindData& kind = batches_.kind(b);
-    States states;
-    gather<0>(u, b, states);  // defined everywhere
-    auto& state = std::get<0>(states);
+    Workspace& work = workspace();
+    thread_local PairSums<k, D, T> hessian;  // kept as the workspace is
+    gather<0>(u, b, work.states);            // defined everywhere
+    const auto& state = std::get<0>(work.states);
     const std::size_t count = state.nodes.size(), n = count * k;
-    std::vector<T> gradient(want == Want::energy ? 0 : n, T(0.0));
-    PairSums<k, D, T> hessian(want == Want::hessian ? count : 0);
+    work.gradient.assign(want == Want::energy ? 0 : n, T(0.0));
+    if (want == Want::hessian) hessian.begin(count);
     T energy = T(0.0);
     for (int q = 0; q < kind.quadrature->size(); ++q) {
-      move_to<0>(b, q, states);
-      const Reference reference = reference_at(b, q);
-      const Mat<T, k, D> f = karcher::gradient(reference, state.interpolation.jet());
-      if constexpr (D < 3)
-        for (auto& dl : state.dl) {
-          const std::array<T, D> along = dl;
-          for (int a = 0; a < D; ++a) {
-            dl[static_cast<std::size_t>(a)] = along[0] * reference.tangent[0][a];
-            for (std::size_t c = 1; c < D; ++c) dl[static_cast<std::size_t>(a)] += along[c] * reference.tangent[c][a];
-          }
-        }
+      move_to<0>(b, q, work.states);
+      const Mat<T, k, D> f = matrix_of_columns(state.interpolation.jet().d);
       const T weight = batches_.point(b, q).weight;
       const auto rho = density(b, q);
       if (want == Want::energy) {
@@ -355,11 +345,11 @@ class DensityTerm : public Term {
       for (T& x : force.e) x *= weight;
       for (std::size_t i = 0; i < count; ++i) {
         const Vec<T, k> g = force * Vec<T, D>{state.dl[i]};
-        for (std::size_t c = 0; c < k; ++c) gradient[i * k + c] += g[static_cast<int>(c)];
+        for (std::size_t c = 0; c < k; ++c) work.gradient[i * k + c] += g[static_cast<int>(c)];
       }
     }
     report_lanes(energy, T(0.0) < T(1.0), out);
-    store_lanes(gradient, out.gradient);
+    store_lanes(work.gradient, out.gradient);
     if (want == Want::hessian)
       hessian.finish([&](std::size_t i, std::size_t j, const T* block) {
         for (std::size_t r = 0; r < k; ++r)

@@ -14,7 +14,8 @@
 
 namespace karcher {
 
-/// A density with `template <class W, class S> void add_energy_of_gradient(W& w, const Mat<S, K, D>& f) const`, f_ia the derivative of component i along the axis a. The
+/// A density with `template <class W, class S> void add_energy_of_gradient(W& w, const Mat<S, K, D>& f) const`, f_ia the derivative of component i along the direction t_a
+/// (reference_point.hpp): an axis of space, or of the plane z = 0. The
 /// entries are variables, S a Combination<T, K D>, and enter W as those of energy/body_strains.hpp.
 template <class Density, int K, int D, class T>
 concept OfGradient = requires(const Density& w, Jet<T, K * D>& sum, const Mat<Combination<T, K * D>, K, D>& f) {
@@ -41,7 +42,10 @@ class PairSums {
   static constexpr std::size_t blocks = K * K, entries = K * D;
 
  public:
-  explicit PairSums(std::size_t nodes) : nodes_(nodes), padded_((nodes + rows - 1) / rows * rows) {
+  /// Sums of 0 for that many nodes.
+  void begin(std::size_t nodes) {
+    nodes_ = nodes;
+    padded_ = (nodes + rows - 1) / rows * rows;
     sums_.assign(nodes_ * padded_ * blocks, T(0.0));
     for (Point& p : group_) p.g.assign(padded_ * D, T(0.0));
   }
@@ -107,7 +111,7 @@ class PairSums {
     for (std::size_t n = 0; n < sum.size(); ++n) to[n] = sum[n];
   }
 
-  std::size_t nodes_, padded_, filled_ = 0;
+  std::size_t nodes_ = 0, padded_ = 0, filled_ = 0;
   std::array<Point, points> group_;
   std::vector<T> sums_;  // [j][i][r][c]
 };

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "karcher/energy/energy_info.hpp"
-#include "karcher/energy/surface_derivatives.hpp"
 #include "karcher/math/functions.hpp"
 #include "karcher/math/symmetric.hpp"
 
@@ -68,7 +67,7 @@ Mat3<W> twice_green(const Mat3<S>& h) {
 }  // namespace hyperelastic_detail
 
 /// What the materials have in common. A Material has add_energy(W& w, const Mat3<S>& h, const W& j): its density at H = h, where j is J - 1 > -1; W is a scalar of any
-/// kind, S the same or variables without second derivatives (math/scalar.hpp).
+/// kind, S the same or a Combination (math/combination.hpp).
 template <class Material, class P>
 struct Hyperelastic {
   /// \param f  F, or its upper left part in the plane
@@ -88,10 +87,10 @@ struct Hyperelastic {
             {"stretch", "1", 3, "principal stretches, the largest first"}};
   }
   /// sigma = 1/J dW/dF F^T, its equivalent stress (3/2 |dev sigma|^2)^(1/2), the eigenvalues of V
-  template <class R, class M>
-  std::array<P, 10> quantities(const R& r, const M& m) const {
+  template <class M>
+  std::array<P, 10> quantities(const M& m) const {
     using S = Dual<P, 9>;
-    const Mat3<P> h = less_identity(gradient(r, m)), f = identity<P, 3>() + h;
+    const Mat3<P> h = less_identity(matrix_of_columns(m.d)), f = identity<P, 3>() + h;
     Mat3<S> variables;
     for (std::size_t i = 0; i < 9; ++i) {
       variables.e[i].v = f.e[i];

@@ -24,6 +24,8 @@ struct ParameterValue {
   ParameterValue() = default;
   ParameterValue(double c) : constant(c) {}
   double operator()(const Vec3<double>& x, double t) const { return function ? function(x, t) : constant; }
+  /// Whether it is this number everywhere and always.
+  bool is(double c) const { return !function && constant == c; }
 };
 
 using ParameterValues = std::map<std::string, ParameterValue>;

@@ -11,20 +11,6 @@
 
 namespace karcher {
 
-/// Derivatives along the first axes, column after column, of a field whose directions span these: space, or the plane z = 0.
-template <class S, class Jet>
-auto gradient(const S& s, const Jet& u) {
-  Mat<std::decay_t<decltype(u.value[0])>, Jet::Manifold::ambient, Jet::directions> g;
-  for (int i = 0; i < g.rows(); ++i)
-    for (int a = 0; a < g.cols(); ++a) {
-      if constexpr (Jet::directions == 3)
-        g(i, a) = u.d[static_cast<std::size_t>(a)][i];
-      else
-        for (std::size_t b = 0; b < u.d.size(); ++b) add_scaled(g(i, a), u.d[b][i], s.tangent[b][a]);
-    }
-  return g;
-}
-
 template <class S, class Jet>
 auto divergence(const S& s, const Jet& u) {
   if constexpr (Jet::directions == 3) {  // the directions are the axes

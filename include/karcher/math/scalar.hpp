@@ -91,39 +91,6 @@ inline constexpr bool differentiated<Dual<U, D>> = true;
 template <class T>
 concept Differentiated = scalar_detail::differentiated<T>;
 
-/// s += w x^2 and s += a b for x, a, b without second derivatives: variables, their sums and multiples.
-template <class T, int N>
-void add_square(Jet<T, N>& s, const Dual<T, N>& x, const T& w) {
-  const T slope = T(2.0) * w * x.v, curvature = w + w;
-  s.v += w * x.v * x.v;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < N; ++i) {
-    s.g[i] += slope * x.d[i];
-    const T row = curvature * x.d[i];
-    for (std::size_t j = i; j < N; ++j, ++k) s.h[k] += row * x.d[j];
-  }
-}
-template <class T, int N>
-void add_product(Jet<T, N>& s, const Dual<T, N>& a, const Dual<T, N>& b) {
-  s.v += a.v * b.v;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < N; ++i) {
-    s.g[i] += a.v * b.d[i] + b.v * a.d[i];
-    for (std::size_t j = i; j < N; ++j, ++k) s.h[k] += a.d[i] * b.d[j] + a.d[j] * b.d[i];
-  }
-}
-
-/// s += a b for a without second derivatives, as above.
-template <class T, int N>
-void add_product(Jet<T, N>& s, const Dual<T, N>& a, const Jet<T, N>& b) {
-  s.v += a.v * b.v;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < N; ++i) {
-    s.g[i] += a.v * b.g[i] + b.v * a.d[i];
-    for (std::size_t j = i; j < N; ++j, ++k) s.h[k] += a.v * b.h[k] + (a.d[i] * b.g[j] + b.g[i] * a.d[j]);
-  }
-}
-
 /// x times a plain number, which costs less than a product of scalars.
 template <class T>
 requires is_base<T> T scaled(const T& x, const T& s) { return x * s; }
@@ -152,12 +119,6 @@ template <class U, int D>
 void add_scaled(Dual<U, D>& r, const Dual<U, D>& x, const Base<U>& s) {
   add_scaled(r.v, x.v, s);
   for (std::size_t i = 0; i < D; ++i) add_scaled(r.d[i], x.d[i], s);
-}
-/// The same for x without second derivatives.
-template <class T, int N>
-void add_scaled(Jet<T, N>& r, const Dual<T, N>& x, const T& s) {
-  r.v += x.v * s;
-  for (std::size_t i = 0; i < x.d.size(); ++i) r.g[i] += x.d[i] * s;
 }
 /// x with plain value v and the derivatives of x.
 template <class T, int N>

@@ -300,6 +300,13 @@ constexpr Mat<T, N, N> diagonal(const Vec<T, N>& d) {
   for (int i = 0; i < N; ++i) a(i, i) = d[i];
   return a;
 }
+template <class T, int M, std::size_t N>
+constexpr Mat<T, M, static_cast<int>(N)> matrix_of_columns(const std::array<Vec<T, M>, N>& columns) {
+  Mat<T, M, static_cast<int>(N)> a;
+  for (std::size_t j = 0; j < N; ++j)
+    for (int i = 0; i < M; ++i) a(i, static_cast<int>(j)) = columns[j][i];
+  return a;
+}
 template <class T, int M, int N>
 constexpr Vec<T, M> column(const Mat<T, M, N>& a, int j) {
   Vec<T, M> c;

@@ -54,6 +54,8 @@ Vec3<double> middle(const Mesh& mesh, const Cell& cell);
 /// Length of the diagonal of the box around all nodes.
 double diagonal(const Mesh& mesh);
 
+/// Facet f of a cell (facets() of reference_cell.hpp), as an entity of its own.
+Cell facet(const Cell& cell, int f);
 /// All facets of the mesh's cells that belong to exactly one cell.
 std::vector<Cell> boundary_facets(const Mesh& mesh);
 /// All distinct entities of dimension `dim` (0 vertices .. mesh.dim cells), optionally only those on the boundary.

@@ -26,8 +26,9 @@ std::shared_ptr<const Mesh> build_mesh(const Problem& problem);
 struct Discretisation {
   std::shared_ptr<const Mesh> mesh;
   std::vector<Field> fields;
-  Configuration initial;  ///< the initial values that the problem states
-  Configuration start;    ///< where the solver starts: there, but for fields that go on from earlier results
+  std::vector<std::vector<unsigned char>> mirrors;  ///< by field, of those of directions: mirror_planes.hpp
+  Configuration initial;                            ///< the initial values that the problem states
+  Configuration start;                              ///< where the solver starts: there, but for fields that go on from earlier results
   Constraints constraints;
 };
 Discretisation discretise(const Problem& problem, std::shared_ptr<const Mesh> mesh);

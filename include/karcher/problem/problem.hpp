@@ -183,7 +183,9 @@ struct Problem {
   std::string resolved;               ///< the whole problem as TOML, every default filled in; may be empty
   std::vector<std::string> identity;  ///< texts that two runs must share for one to continue the other
 
-  /// First field whose values are the places of the points; -1 if there is none.
+  /// Whether an energy takes the field's values for the places of the points.
+  bool is_deformation(int field) const;
+  /// The first such field; -1 if there is none.
   int deformation() const;
 };
 
